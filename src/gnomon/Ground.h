@@ -5,7 +5,6 @@
 #include <array>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
 #include <optional>
 
 namespace gnomon {
@@ -19,15 +18,6 @@ struct GroundRange {
     double high;        ///< Greatest height.
     double steepest;    ///< Greatest slope, as a tangent.
     bool holes = false; ///< True if rays may pass through holes there and hit ground behind.
-};
-
-/// Whether some triangle of a ground is turned away from a light. A vertical triangle counts unless the light is in its
-/// plane.
-struct TurnedAway {
-    bool is = false; ///< True if there is one.
-    /// `is` stays as it is while the light moves by less: the change of a sun's unit direction, or a lamp's way, scene's
-    /// unit.
-    double until = 0.0;
 };
 
 /// Terrain that shadows fall on: triangles, z up, in double. groundOf() reads one from a scene graph.
@@ -48,9 +38,6 @@ public:
     /// First point of the ground on a ray, from either side. nullopt if there is none.
     /// @param along  direction, any length but 0. The ray has no end.
     virtual std::optional<glm::dvec3> hit(const glm::dvec3& start, const glm::dvec3& along) const = 0;
-    /// Finds out whether the ground may throw a shadow on itself.
-    /// @param light  homogeneous: w = 0 is the direction towards a sun, w = 1 a lamp's position.
-    virtual TurnedAway turnedAway(const glm::dvec4& light) const = 0;
     /// Conservative bounds of height, slope and holes over a rectangle in plan. They may include nearby ground.
     /// nullopt if there is no ground.
     virtual std::optional<GroundRange> range(const glm::dvec2& low, const glm::dvec2& high) const = 0;

@@ -259,13 +259,6 @@ TEST(TriangleGround, HasHolesWhereAnEdgeIsOfOneTriangleButAtItsEnds) {
     EXPECT_GT(whole, 100);
 }
 
-TEST(TriangleGround, HasACliffThatIsTurnedAwayUnlessTheLightIsInItsPlane) {
-    const TriangleGround cliff = groundOf(terraces());
-    EXPECT_TRUE(cliff.turnedAway({-1.0, 0.0, 5.0, 0.0}).is);
-    EXPECT_FALSE(cliff.turnedAway({0.0, 0.0, 1.0, 0.0}).is);
-    EXPECT_FALSE(cliff.turnedAway({0.0, 1.0, 0.1, 0.0}).is);
-}
-
 /// Seconds of processor time for 20 000 heights and rays on a field of posts².
 double seconds(int side) {
     const HeightPyramid field = test::groundOf(test::steepHills, side);

@@ -59,6 +59,22 @@ double turnBetween(const glm::dvec4& a, const glm::dvec4& b) {
     return std::atan2(glm::length(glm::cross(from, to)), glm::dot(from, to));
 }
 
+/// Whether the steepest of a ground is steep enough to be turned away from a light, and for a lamp also far enough from
+/// it. It may face the light: only its slope is known. What lies so far from a lamp is beyond one side of a square.
+bool mayShadowItself(const HullGround& ground, const glm::dvec4& light) {
+    const double steepest = ground.all.steepest;
+    if (light.w == 0.0) return steepest * glm::length(glm::dvec2(light)) >= light.z;
+    const glm::dvec3 lamp = glm::dvec3(light) / light.w;
+    const double half = (lamp.z - ground.all.high) / steepest * std::sqrt(0.5);
+    const auto hasGround = [&](double left, double front, double right, double back) {
+        return ground.ground.range({left, front}, {right, back}).has_value();
+    };
+    return hasGround(-infinite, -infinite, lamp.x - half, infinite) ||
+           hasGround(lamp.x + half, -infinite, infinite, infinite) ||
+           hasGround(-infinite, -infinite, infinite, lamp.y - half) ||
+           hasGround(-infinite, lamp.y + half, infinite, infinite);
+}
+
 std::string sentenceOf(HullOutcome outcome) {
     switch (outcome) {
     case HullOutcome::boxed:
@@ -116,11 +132,6 @@ HullSolids shadowsOf(std::size_t tile, const CasterTiles& town, const HullGround
                           : hullSolids(ground, casters.parts, light, town.origin());
 }
 
-void HullTiles::groundChanged() {
-    _states.clear();
-    _turn.groundChanged();
-}
-
 /// Whether a tile must be found at once. What may wait becomes late; what is out of sight and not right any more is let go.
 bool HullTiles::isDue(std::size_t tile, const CasterTiles& town, const HullGround& ground, const TileView& view) {
     const CasterTiles::Tile& casters = town.tiles()[tile];
@@ -147,7 +158,7 @@ void HullTiles::update(const CasterTiles& town, const HullGround& ground, const 
                        const TileView& view) {
     const bool still = light == _light;
     _light = light;
-    _groundShadowsItself = !isLightBelow(ground.ground, light) && _turn.isTurnedAway(ground.ground, light);
+    _groundShadowsItself = !isLightBelow(ground.ground, light) && mayShadowItself(ground, light);
     _shadows.resize(town.tiles().size());
     _states.resize(town.tiles().size(), 0);
     std::vector<std::size_t> due;
@@ -189,8 +200,9 @@ std::vector<std::string> HullTiles::causes() const {
             causes.push_back(std::to_string(counts[i]) + " of " + std::to_string(all) + " casters: " + sentence);
     if (_groundShadowsItself)
         causes.push_back(
-            "the terrain is turned away from the light in places, and what it throws on itself is not drawn. "
-            "Use map, volume or traced, or raise the light.");
+            "the terrain may be turned away from the light in places, for it is steep enough, and what it throws on "
+            "itself is not drawn. Unless its steep sides face the light, use map, volume or traced, or raise the "
+            "light.");
     return causes;
 }
 

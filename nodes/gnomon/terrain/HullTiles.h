@@ -3,7 +3,6 @@
 #include <gnomon/ViewFrame.h>
 #include <gnomon/geometry/ScreenBounds.h>
 #include <gnomon/gl/VolumeGeometry.h>
-#include <gnomon/ground/GroundSearch.h>
 #include <gnomon/ground/HullSolids.h>
 #include <gnomon/terrain/CasterTiles.h>
 
@@ -63,7 +62,7 @@ public:
 
     /// @param ground  the same until groundChanged().
     void update(const CasterTiles& town, const HullGround& ground, const glm::dvec4& light, const TileView& view);
-    void groundChanged();
+    void groundChanged() { _states.clear(); }
 
     const List& shadows() const { return _shadows; } ///< null: not found yet.
     std::vector<std::string> causes() const;         ///< of all that are kept.
@@ -84,7 +83,6 @@ private:
     };
     std::vector<Late> _late;
     glm::dvec4 _light{0.0};
-    FollowedTurn _turn; ///< of the ground.
     bool _groundShadowsItself = false;
     unsigned _found = 0;
 };

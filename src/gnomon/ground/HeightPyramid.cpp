@@ -119,17 +119,6 @@ std::optional<glm::dvec3> HeightPyramid::hit(const glm::dvec3& start, const glm:
     return start + nearest * along;
 }
 
-TurnedAway HeightPyramid::turnedAway(const glm::dvec4& light) const {
-    TurnedAwaySearch search(light);
-    descend(top(), [&](const Block& block) {
-        if (!search.enter(boxOf(block), node(block).steepest())) return false;
-        if (block.level > 0) return true;
-        for (const GroundTriangle& triangle : _field.triangles(block.x, block.y)) search.take(triangle);
-        return false;
-    });
-    return search.result();
-}
-
 /// Lowest and highest of a cell's part that a rectangle touches, or some more: its planes over that part's corners.
 std::pair<double, double> HeightPyramid::heightsIn(int x, int y, const glm::dvec2& low, const glm::dvec2& high) const {
     const Node& cell = node({0, x, y});

@@ -16,7 +16,6 @@ public:
 
     std::optional<double> height(double x, double y) const override { return _field.height(x, y); }
     std::optional<glm::dvec3> hit(const glm::dvec3& start, const glm::dvec3& along) const override;
-    TurnedAway turnedAway(const glm::dvec4& light) const override;
     std::optional<GroundRange> range(const glm::dvec2& low, const glm::dvec2& high) const override;
 
 private:

@@ -182,14 +182,6 @@ std::optional<glm::dvec3> TriangleGround::hit(const glm::dvec3& start, const glm
     return start + nearest * along;
 }
 
-TurnedAway TriangleGround::turnedAway(const glm::dvec4& light) const {
-    TurnedAwaySearch search(light);
-    descend(
-        all(), [&](const Node& node) { return search.enter(node.box, node.slope); },
-        [&](const Corners& c) { search.take(triangle(c)); });
-    return search.result();
-}
-
 /// Goes down to triangles at the rectangle's border alone: a node inside of it counts as a whole, and one that would add
 /// nothing is left out.
 std::optional<GroundRange> TriangleGround::range(const glm::dvec2& low, const glm::dvec2& high) const {
