@@ -20,7 +20,8 @@ namespace gnomon {
 ///     viewer.setSceneData(gnomon::shadowedScene(*model, gnomon::parseSceneSpec("map:edges=smooth+ground")));
 ///
 /// Syntax: items with "+" between them, each NAME or NAME:key=value,key=value; ";" may stand for ",". The names are
-/// those of the techniques, and ground, sun and nosun. sceneSpecHelp() lists all keys.
+/// those of the techniques; ground, with the key side; sun, with azimuth and elevation; and nosun. shadowSpecHelp() lists the
+/// techniques' keys.
 struct SceneSpec {
     std::vector<ShadowSpec> shadows; ///< Never empty after parseSceneSpec(): without a technique it is auto.
     bool hasGround = false;          ///< Puts a white ground under the scene, see makeGround().
@@ -38,9 +39,6 @@ GNOMON_EXPORT SceneSpec parseSceneSpec(const std::string& text);
 
 /// Names of the items that are not techniques.
 GNOMON_EXPORT std::vector<std::string> sceneParts();
-
-/// Table of the items that are not techniques, for --help. shadowSpecHelp() lists the techniques.
-GNOMON_EXPORT std::string sceneSpecHelp();
 
 /// Puts a scene under a new ShadowCasterGroup with the shadows, the sun and the ground of `spec`.
 ///

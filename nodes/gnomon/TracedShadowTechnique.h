@@ -73,9 +73,6 @@ public:
     /// The same.
     unsigned passes() const override { return builds(); }
 
-    /// Number of pixels that rays were cast for so far, over all views and lights.
-    std::size_t tracedPixels() const;
-
     /// Releases OpenGL objects, as osg::Node does.
     void releaseGLObjects(osg::State* state = nullptr) const override;
 
@@ -83,6 +80,8 @@ protected:
     ~TracedShadowTechnique() override;
 
 private:
+    friend std::size_t tracedPixels(const TracedShadowTechnique& technique); // so far, of all views and lights; for tests
+
     std::unique_ptr<RaySceneCache> _casters;
     std::shared_ptr<ResolvedDepth> _resolved; ///< a frame that is still drawn keeps it, and the next.
     std::shared_ptr<TracedFrames> _frames;

@@ -72,8 +72,6 @@ public:
     /// Finds the vertex nearest to `point`, the first one among equals.
     /// @return nullopt if there is no vertex or `point` is not finite.
     std::optional<osg::Vec3d> nearestVertex(const osg::Vec3d& point) const;
-    /// Finds the vertex nearest to (x, y) in plan, whatever its height.
-    std::optional<osg::Vec3d> nearestVertexInPlan(double x, double y) const;
 
     /// Largest error from storing a vertex as float in its own array, in the root's unit. 0 for double arrays.
     double getRounding() const;

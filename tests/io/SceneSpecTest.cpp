@@ -84,10 +84,6 @@ TEST(SceneSpec, RefusesWithThePartThatIsWrongAndWhatIsAllowed) {
     EXPECT_EQ(refusal("map+").find("\"\" is neither"), 0u);
 }
 
-TEST(SceneSpec, HelpNamesEveryItemThatIsNoTechnique) {
-    for (const std::string& part : sceneParts()) EXPECT_NE(sceneSpecHelp().find("  " + part + "  "), std::string::npos);
-}
-
 TEST(ShadowedScene, GivesASceneWithoutLightASunInThePlaceOfTheHeadlight) {
     const auto group = shadowed(*boxScene(), "map+nosun");
     EXPECT_TRUE(lightSourcesIn(*group).empty());

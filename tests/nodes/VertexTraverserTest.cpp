@@ -300,12 +300,11 @@ TEST(VertexTraverserRounding, DoublesHaveNone) {
     EXPECT_EQ(casters.getRounding(), 0.0);
 }
 
-TEST(VertexTraverserNearest, IsNearestInSpaceOrInPlan) {
+TEST(VertexTraverserNearest, IsNearestInSpace) {
     VertexTraverser casters;
     geometryOf(vec3s({{0, 0, 0}, {4, 0, 0}, {1, 0, 50}}), new osg::DrawArrays(Mode::TRIANGLES, 0, 3))->accept(casters);
     EXPECT_EQ(casters.nearestVertex({1.2, 0, 0}), osg::Vec3d(0, 0, 0));
     EXPECT_EQ(casters.nearestVertex({1.2, 0, 40}), osg::Vec3d(1, 0, 50));
-    EXPECT_EQ(casters.nearestVertexInPlan(1.2, 0), osg::Vec3d(1, 0, 50));
     EXPECT_EQ(casters.nearestVertex({2, 0, 0}), osg::Vec3d(0, 0, 0)) << "of equals the first";
 }
 
@@ -316,7 +315,6 @@ TEST(VertexTraverserNearest, ThereIsNoneInAnEmptySceneOrForAPointThatIsNotFinite
     EXPECT_FALSE(empty.nearestVertex({0, 0, 0}));
     EXPECT_FALSE(casters.nearestVertex({nan, 0, 0}));
     EXPECT_FALSE(casters.nearestVertex({infinity, 0, 0}));
-    EXPECT_FALSE(casters.nearestVertexInPlan(0, nan));
 }
 
 TEST(VertexTraverser, ResetForgetsTheSceneBefore) {

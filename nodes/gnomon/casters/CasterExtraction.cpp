@@ -240,29 +240,16 @@ double VertexTraverser::getRounding() const { return _found->getRounding(); }
 unsigned VertexTraverser::getInvalidTriangles() const { return _found->getInvalidTriangles(); }
 const std::string& VertexTraverser::getInvalidNode() const { return _found->getInvalidNode(); }
 
-namespace {
-
-template <class Distance>
-std::optional<osg::Vec3d> nearest(const std::vector<osg::Vec3d>& vertices, Distance squaredDistance) {
+std::optional<osg::Vec3d> VertexTraverser::nearestVertex(const osg::Vec3d& point) const {
     std::optional<osg::Vec3d> best;
     double least = std::numeric_limits<double>::infinity();
-    for (const osg::Vec3d& vertex : vertices) {
-        const double distance = squaredDistance(vertex);
+    for (const osg::Vec3d& vertex : getVertices()) {
+        const double distance = (vertex - point).length2();
         if (!(distance < least)) continue;
         least = distance;
         best = vertex;
     }
     return best;
-}
-
-} // namespace
-
-std::optional<osg::Vec3d> VertexTraverser::nearestVertex(const osg::Vec3d& point) const {
-    return nearest(getVertices(), [&](const osg::Vec3d& v) { return (v - point).length2(); });
-}
-
-std::optional<osg::Vec3d> VertexTraverser::nearestVertexInPlan(double x, double y) const {
-    return nearest(getVertices(), [=](const osg::Vec3d& v) { return osg::Vec2d(v.x() - x, v.y() - y).length2(); });
 }
 
 } // namespace gnomon

@@ -18,9 +18,9 @@ constexpr double largestGround = 1e9;
 
 [[noreturn]] void refuse(const std::string& sentence) { throw std::invalid_argument(sentence); }
 
-/// A number of a part. All are told by parseSceneSpec()'s refusals and sceneSpecHelp().
+/// A number of a part. All are told by parseSceneSpec()'s refusals.
 struct PartKey {
-    std::string name, meaning, byDefault;
+    std::string name;
     double least, most;
     double SceneSpec::*number;
 
@@ -29,26 +29,20 @@ struct PartKey {
 
 /// An item that is no technique.
 struct ScenePart {
-    std::string name, meaning;
+    std::string name;
     void (*take)(SceneSpec&);
     std::vector<PartKey> keys;
 };
 
 const std::vector<ScenePart>& parts() {
-    static const SceneSpec fresh;
     static const std::vector<ScenePart> table = {
         {"ground",
-         "a white ground under the scene",
          [](SceneSpec& spec) { spec.hasGround = true; },
-         {{"side", "length of its side, scene's unit", "four times the scene's radius", 1e-9, largestGround,
-           &SceneSpec::groundSide}}},
+         {{"side", 1e-9, largestGround, &SceneSpec::groundSide}}},
         {"sun",
-         "a sun, also beside the scene's own lights; without it there is one if the scene has no light",
          [](SceneSpec& spec) { spec.hasSun = true; },
-         {{"azimuth", "degrees from +y through +x", textOf(fresh.sunAzimuth), -360.0, 360.0, &SceneSpec::sunAzimuth},
-          {"elevation", "degrees above the horizon", textOf(fresh.sunElevation), -90.0, 90.0,
-           &SceneSpec::sunElevation}}},
-        {"nosun", "no sun: the program's own lights cast", [](SceneSpec& spec) { spec.addsSun = false; }, {}},
+         {{"azimuth", -360.0, 360.0, &SceneSpec::sunAzimuth}, {"elevation", -90.0, 90.0, &SceneSpec::sunElevation}}},
+        {"nosun", [](SceneSpec& spec) { spec.addsSun = false; }, {}},
     };
     return table;
 }
@@ -161,17 +155,6 @@ std::vector<std::string> sceneParts() {
     std::vector<std::string> names;
     for (const ScenePart& part : parts()) names.push_back(part.name);
     return names;
-}
-
-std::string sceneSpecHelp() {
-    std::ostringstream out;
-    for (const ScenePart& part : parts()) {
-        out << "  " << part.name << "  " << part.meaning << "\n";
-        for (const PartKey& key : part.keys)
-            out << "    " << key.name << "=  " << key.meaning << "; allowed " << key.allowed() << ", default "
-                << key.byDefault << "\n";
-    }
-    return out.str();
 }
 
 osg::ref_ptr<ShadowCasterGroup> shadowedScene(osg::Node& scene, const SceneSpec& spec) {

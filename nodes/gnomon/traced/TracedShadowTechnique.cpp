@@ -323,7 +323,7 @@ std::string TracedShadowTechnique::whyUnavailable() const { return whyMissing(Op
 
 unsigned TracedShadowTechnique::builds() const { return _casters->builds(); }
 
-std::size_t TracedShadowTechnique::tracedPixels() const { return _frames->traced(); }
+std::size_t tracedPixels(const TracedShadowTechnique& technique) { return technique._frames->traced(); }
 
 void TracedShadowTechnique::releaseGLObjects(osg::State* state) const {
     ShadowTechnique::releaseGLObjects(state);
