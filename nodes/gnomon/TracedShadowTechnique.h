@@ -80,7 +80,7 @@ protected:
     ~TracedShadowTechnique() override;
 
 private:
-    friend std::size_t tracedPixels(const TracedShadowTechnique& technique); // so far, of all views and lights; for tests
+    friend std::size_t tracedPixels(const TracedShadowTechnique& technique); // rays so far; for tests
 
     std::unique_ptr<RaySceneCache> _casters;
     std::shared_ptr<ResolvedDepth> _resolved; ///< a frame that is still drawn keeps it, and the next.

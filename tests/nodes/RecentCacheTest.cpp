@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/base/RecentCache.h>
+#include <gnomon/group/PerView.h>
 
 #include <gtest/gtest.h>
 
+#include <iterator>
 #include <memory>
 #include <string>
 
@@ -119,4 +121,37 @@ TEST(RecentCache, DropsAllThatAreOldWhereverTheyStand) {
     Cache cache = cacheOf("abcd");
     cache.dropIf([](const Entry& entry) { return entry.key == 'b' || entry.key == 'd'; });
     EXPECT_EQ(keysOf(cache), "ac");
+}
+
+namespace {
+
+using PerView = gnomon::PerView<std::string>;
+const int first = 0, second = 0; // stages, told apart by where they are
+
+} // namespace
+
+TEST(PerView, HasAValueForEachLightInEachViewAndPart) {
+    PerView kept;
+    const gnomon::ViewKey here{&first, 0}, part{&first, 1}, there{&second, 0};
+    kept.of(here, 0, 1) = "a";
+    kept.of(here, 1, 1) = "b";
+    kept.of(part, 0, 1) = "c";
+    kept.of(there, 0, 1) = "d";
+    EXPECT_EQ(kept.of(here, 0, 2) + kept.of(here, 1, 2) + kept.of(part, 0, 2) + kept.of(there, 0, 2), "abcd");
+    kept.dropIf([](const std::string& value) { return value == "c"; });
+    EXPECT_EQ(kept.of(part, 0, 3), "");
+}
+
+/// 60 rounds without a question are borne, 61 are not; of two views that count no frames a round is both.
+TEST(PerView, LetsGoWhatNobodyAskedForInSixtyRounds) {
+    for (const bool counts : {true, false})
+        for (const unsigned others : {60u, 61u}) {
+            PerView kept;
+            kept.of({&first, 0}, 0, 1) = "a";
+            kept.of({&second, 0}, 0, 1) = "b";
+            const unsigned begun = kept.round();
+            for (unsigned i = 1; i <= others; ++i) EXPECT_EQ(kept.of({&second, 0}, 0, counts ? 1 + i : 1), "b");
+            EXPECT_EQ(kept.round() - begun, others) << counts;
+            EXPECT_EQ(std::distance(kept.begin(), kept.end()), others == 60 ? 2 : 1) << counts;
+        }
 }

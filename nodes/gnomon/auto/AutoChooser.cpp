@@ -15,7 +15,7 @@ namespace {
 
 using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
 
-constexpr unsigned keptRounds = 60; // choices of views that are gone are let go
+constexpr unsigned keptRounds = 60; // what time= found out of views that are gone is let go
 constexpr double memory = 0.9;      // of motion, from a frame to the next
 constexpr double atRest = 0.01;     // share of frames: 44 without motion after one with it
 constexpr unsigned firstLook = 2;   // frames after the first: what moves from the start is known by then
@@ -85,22 +85,6 @@ std::uint64_t fingerprintOf(const std::vector<const osgUtil::RenderLeaf*>& leave
 bool isMoving(const AutoMotion& motion) { return motion.scene > 0.0 || motion.view > 0.0; }
 
 } // namespace
-
-AutoChooser::Choice& AutoChooser::find(const AutoView& view) {
-    auto* known = _choices.find(
-        [&](const auto& choice) { return choice->view == view.frame.key && choice->light == view.light.number; });
-    Choice& choice = known ? **known : *_choices.add(std::make_unique<Choice>());
-    if (!known) choice.view = view.frame.key, choice.light = view.light.number;
-    if (view.frame.frameNumber != _frame || (known && choice.lastRound == _round)) {
-        _frame = view.frame.frameNumber;
-        ++_round;
-    }
-    choice.lastRound = _round;
-    _lastStage = view.frame.key.stage;
-    choice.kind = view.frame.kind;
-    _choices.dropWhile([this](const auto& old) { return _round - old->lastRound > keptRounds; });
-    return choice;
-}
 
 /// Keeps no caster alive.
 AutoChooser::Seen AutoChooser::seenIn(const AutoView& view, const Selection& receiver, double error) const {
@@ -183,7 +167,9 @@ void AutoChooser::decide(Choice& choice, const Seen& now, const AutoView& view, 
 AutoChooser::Drawn AutoChooser::choose(const AutoView& view, const Selection& receiver,
                                        const AutoShadowOptions& options) {
     Lock lock(_mutex);
-    Choice& choice = find(view);
+    Choice& choice = _choices.of(view.frame.key, view.light.number, view.frame.frameNumber);
+    choice.kind = view.frame.kind;
+    _lastStage = view.frame.key.stage;
     _idleCulls = 0;
     TimeKeeper* keeper = options.time > 0.0 ? &keeperOf(view.frame.key.stage, options) : nullptr;
     const Seen now = seenIn(view, receiver, keeper ? keeper->error() : usualError(options));
@@ -198,13 +184,14 @@ AutoChooser::Drawn AutoChooser::choose(const AutoView& view, const Selection& re
 std::vector<AutoChooser::Drawn::Share> AutoChooser::sharesOf(const AutoCandidate& candidate, const AutoView& view,
                                                              const Selection& receiver) {
     if (candidate.kind == AutoCandidate::Kind::Nothing) return {};
-    if (candidate.kind != AutoCandidate::Kind::Mixed) return {{_inner.of(candidate, receiver, _round), &view.casters}};
+    if (candidate.kind != AutoCandidate::Kind::Mixed)
+        return {{_inner.of(candidate, receiver, _choices.round()), &view.casters}};
     const CasterSplit& split = _known.splits.of(view.casters);
     AutoCandidate volume, map = candidate;
     volume.kind = AutoCandidate::Kind::Volume;
     map.kind = AutoCandidate::Kind::Map;
-    return {{_inner.of(volume, receiver, _round), split.simple(view.casters)},
-            {_inner.of(map, receiver, _round), split.dense(view.casters)}};
+    return {{_inner.of(volume, receiver, _choices.round()), split.simple(view.casters)},
+            {_inner.of(map, receiver, _choices.round()), split.dense(view.casters)}};
 }
 
 TimeKeeper& AutoChooser::keeperOf(const void* stage, const AutoShadowOptions& options) {
@@ -216,9 +203,9 @@ TimeKeeper& AutoChooser::keeperOf(const void* stage, const AutoShadowOptions& op
         known = &_keepers.add({stage, options.error, 0,
                                new TimeKeeper(options.time, ErrorControl(usualError(options), finest), *_renderer)});
     }
-    known->lastRound = _round;
+    const unsigned round = known->lastRound = _choices.round();
     TimeKeeper& keeper = *known->keeper;
-    _keepers.dropWhile([this](const Keeper& old) { return _round - old.lastRound > keptRounds; });
+    _keepers.dropWhile([round](const Keeper& old) { return round - old.lastRound > keptRounds; });
     return keeper;
 }
 
@@ -227,7 +214,7 @@ void AutoChooser::beginCull(bool isCurrent) {
     Lock lock(_mutex);
     if (_idleCulls++ != keptRounds) return;
     _inner.clear();
-    _choices = {};
+    _choices.dropIf([](const Choice&) { return true; });
     _known = {};
 }
 
@@ -239,16 +226,16 @@ osg::ref_ptr<DrawWatch> AutoChooser::watch(const void* stage, const AutoShadowOp
 
 std::vector<ShadowDecision> AutoChooser::lastDecision() const {
     Lock lock(_mutex);
-    std::vector<const Choice*> last; // in the order in which they were asked for
-    for (const auto& choice : _choices)
-        if (choice->view.stage == _lastStage && choice->lastRound == _round) last.push_back(choice.get());
-    std::stable_sort(last.begin(), last.end(), [](const Choice* a, const Choice* b) {
-        return std::make_pair(a->light, a->kind) < std::make_pair(b->light, b->kind);
+    std::vector<const PerView<Choice>::Entry*> last; // in the order in which they were asked for
+    for (const auto& entry : _choices)
+        if (entry->view.stage == _lastStage && entry->lastRound == _choices.round()) last.push_back(entry.get());
+    std::stable_sort(last.begin(), last.end(), [](const auto* a, const auto* b) {
+        return std::make_pair(a->light, a->value.kind) < std::make_pair(b->light, b->value.kind);
     });
     std::vector<ShadowDecision> result;
-    for (const Choice* choice : last) {
-        result.push_back(choice->decision);
-        result.back().receivers = describe(choice->kind);
+    for (const auto* entry : last) {
+        result.push_back(entry->value.decision);
+        result.back().receivers = describe(entry->value.kind);
     }
     return result;
 }

@@ -4,6 +4,7 @@
 #include <gnomon/auto/CandidateList.h>
 #include <gnomon/auto/TimeKeeper.h>
 #include <gnomon/base/RecentCache.h>
+#include <gnomon/group/PerView.h>
 
 #include <OpenThreads/Mutex>
 
@@ -60,22 +61,18 @@ private:
         }
     };
     struct Choice {
-        ViewKey view;
-        int light;
         ReceiverKind kind = ReceiverKind::Usual;
         Seen decided, last;
         AutoCandidate candidate;
         ShadowDecision decision;
         std::string cause;      ///< see Drawn.
         double triangles = 0.0; ///< of the casters, when the candidates were compared.
-        unsigned lastRound = 0;
-        unsigned frames = 0;   ///< since the candidates were compared.
-        unsigned seen = 0;     ///< frames that could be held against one before.
-        unsigned since = 0;    ///< frames since things began to move after a rest.
-        AutoMotion moving;     ///< of the recent frames.
-        AutoMotion movingThen; ///< when the candidates were compared.
+        unsigned frames = 0;    ///< since the candidates were compared.
+        unsigned seen = 0;      ///< frames that could be held against one before.
+        unsigned since = 0;     ///< frames since things began to move after a rest.
+        AutoMotion moving;      ///< of the recent frames.
+        AutoMotion movingThen;  ///< when the candidates were compared.
     };
-    Choice& find(const AutoView& view);
     Seen seenIn(const AutoView& view, const Selection& receiver, double error) const;
     TimeKeeper& keeperOf(const void* stage, const AutoShadowOptions& options);
     std::vector<Drawn::Share> sharesOf(const AutoCandidate& candidate, const AutoView& view, const Selection& receiver);
@@ -94,10 +91,9 @@ private:
     mutable OpenThreads::Mutex _mutex;
     InnerTechniques _inner;
     AutoKnowledge _known;
-    RecentCache<std::unique_ptr<Choice>> _choices;
+    PerView<Choice> _choices;
     RecentCache<Keeper> _keepers;
     const osg::ref_ptr<RendererFact> _renderer = new RendererFact;
-    unsigned _round = 0, _frame = 0;
     unsigned _idleCulls = 0; ///< since the last choice.
     const void* _lastStage = nullptr;
 };

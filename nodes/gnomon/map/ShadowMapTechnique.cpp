@@ -5,6 +5,7 @@
 #include <gnomon/base/RecentCache.h>
 #include <gnomon/casters/Casters.h>
 #include <gnomon/geometry/ScreenBounds.h>
+#include <gnomon/group/PerView.h>
 #include <gnomon/group/SceneFrame.h>
 #include <gnomon/map/LightShadowMaps.h>
 #include <gnomon/map/MapMarks.h>
@@ -32,7 +33,6 @@ Kind known(Kind value, Kind last, Kind byDefault) {
 
 using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
 
-constexpr unsigned keptRounds = 60;    // maps that nobody asked for since are let go, however many there are
 constexpr std::size_t mostCasters = 8; // groups above one node, and views of different levels of detail
 
 } // namespace
@@ -59,7 +59,7 @@ public:
     /// Makes the maps of a light anew where they do not show what they must. @return none if none of its shadow can be seen.
     std::optional<MapsInView> update(const ViewFrame& view, int lightNumber, const MapRequest& request) {
         Lock lock(_mutex);
-        LightShadowMaps& maps = find(view, lightNumber);
+        LightShadowMaps& maps = _maps.of(view.key, lightNumber, view.frameNumber);
         const std::vector<glm::dvec4> corners = maps.find(view, request);
         const auto bounds = corners.empty() ? std::nullopt : screenBounds(corners);
         if (!bounds) {
@@ -74,7 +74,7 @@ public:
     /// Drops the maps and meshes of retired casters.
     void letGo() {
         Lock lock(_mutex);
-        _maps.dropIf([](const auto& entry) { return entry->maps.areCastersRetired(); });
+        _maps.dropIf([](const LightShadowMaps& maps) { return maps.areCastersRetired(); });
         dropRetired();
     }
 
@@ -82,7 +82,7 @@ public:
         programs->resizeGLObjectBuffers(maxSize);
         Lock lock(_mutex);
         for (const auto& entry : _maps)
-            if (entry->maps.map()) entry->maps.map()->resizeGLObjectBuffers(maxSize);
+            if (entry->value.map()) entry->value.map()->resizeGLObjectBuffers(maxSize);
         _meshes.resizeGLObjectBuffers(maxSize);
     }
 
@@ -90,31 +90,11 @@ public:
         programs->release(state);
         Lock lock(_mutex);
         for (const auto& entry : _maps)
-            if (entry->maps.map()) entry->maps.map()->release(state);
+            if (entry->value.map()) entry->value.map()->release(state);
         _meshes.releaseGLObjects(state);
     }
 
 private:
-    struct Entry {
-        ViewKey view;
-        int light;
-        unsigned lastRound = 0; ///< that asked for it.
-        LightShadowMaps maps{};
-    };
-
-    /// Maps that are asked for twice begin a round as well, for views may count no frames.
-    LightShadowMaps& find(const ViewFrame& view, int light) {
-        auto* known = _maps.find([&](const auto& each) { return each->view == view.key && each->light == light; });
-        Entry& entry = known ? **known : *_maps.add(std::unique_ptr<Entry>(new Entry{view.key, light}));
-        if (view.frameNumber != _frame || entry.lastRound == _round) {
-            _frame = view.frameNumber;
-            ++_round;
-        }
-        entry.lastRound = _round;
-        _maps.dropWhile([this](const auto& old) { return _round - old->lastRound > keptRounds; });
-        return entry.maps;
-    }
-
     osg::ref_ptr<const MapLayer> layerOf(const CasterLayer& layer) {
         for (const auto& entry : _casters)
             for (const auto& known : {entry->still, entry->moving})
@@ -128,10 +108,9 @@ private:
     }
 
     OpenThreads::Mutex _mutex;
-    RecentCache<std::unique_ptr<Entry>> _maps;
+    PerView<LightShadowMaps> _maps;
     RecentCache<osg::ref_ptr<const MapCasters>> _casters;
     MapMeshes _meshes;
-    unsigned _round = 1, _frame = 0; ///< a round is a frame, as views count them.
 };
 
 ShadowMapOptions ShadowMapOptions::usable() const {

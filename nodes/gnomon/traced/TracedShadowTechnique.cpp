@@ -5,13 +5,13 @@
 #include <gnomon/ScreenPass.h>
 #include <gnomon/TracedShadowTechnique.h>
 #include <gnomon/ViewFrame.h>
-#include <gnomon/base/RecentCache.h>
 #include <gnomon/casters/Casters.h>
 #include <gnomon/casters/RaySceneCache.h>
 #include <gnomon/compositor/ShadowJob.h>
 #include <gnomon/geometry/DrawnError.h>
 #include <gnomon/gl/FrameCopies.h>
 #include <gnomon/gl/SavedFramebuffers.h>
+#include <gnomon/group/PerView.h>
 #include <gnomon/group/SceneFrame.h>
 #include <gnomon/rays/DepthBufferShadow.h>
 
@@ -40,7 +40,8 @@ namespace gnomon {
 /// What rays are cast for in one view and of one light.
 struct TracedFrame {
     ViewKey view;
-    int light = 0; ///< number.
+    int light = 0;      ///< number.
+    unsigned frame = 0; ///< number.
     std::shared_ptr<const RayScene> scene;
     osg::ref_ptr<const Casters> pieces; ///< of the scene; null if they are not known.
     osg::Vec3d origin;                  ///< of the scene, group frame.
@@ -52,7 +53,7 @@ struct TracedFrame {
 /// The answers of a technique's last frames, so that rays are cast only where depth, light or casters have changed.
 ///
 /// Cost
-/// - Four bytes a pixel, of each light in each of the last eight views.
+/// - Four bytes a pixel, of each light in each view, until PerView lets it go.
 /// Threads
 /// - Any number.
 class TracedFrames {
@@ -76,18 +77,19 @@ private:
         std::shared_ptr<const Pieces> pieces; ///< of it; null if they are not known.
         std::vector<std::uint8_t> bits;
     };
-    static constexpr std::size_t most = 8;
+    /// What is known of a light in a view. Whoever casts rays for it holds it, so that it may be let go meanwhile.
+    struct Last {
+        std::shared_ptr<const Known> known;
+    };
 
     static std::shared_ptr<const Pieces> piecesOf(const Casters* casters);
     static bool addMissing(const Pieces& pieces, const Pieces& others, const osg::Vec3d& origin,
                            std::vector<RayBox>& boxes);
     static std::optional<std::vector<RayBox>> changesBetween(const Known& before, const Pieces* now,
                                                              const osg::Vec3d& origin);
-    std::shared_ptr<const Known> find(const TracedFrame& frame);
-    void keep(std::shared_ptr<const Known> known);
 
     OpenThreads::Mutex _mutex;
-    RecentCache<std::shared_ptr<const Known>> _known;
+    PerView<std::shared_ptr<Last>> _last;
     std::atomic<std::size_t> _traced{0};
 };
 
@@ -217,24 +219,16 @@ std::optional<std::vector<RayBox>> TracedFrames::changesBetween(const Known& bef
     return boxes;
 }
 
-std::shared_ptr<const TracedFrames::Known> TracedFrames::find(const TracedFrame& frame) {
-    Lock lock(_mutex);
-    const auto* found = _known.find(
-        [&](const auto& known) { return known->frame.view == frame.view && known->frame.light == frame.light; });
-    return found ? *found : nullptr;
-}
-
-void TracedFrames::keep(std::shared_ptr<const Known> known) {
-    Lock lock(_mutex);
-    _known.dropIf([&](const auto& old) {
-        return old->frame.view == known->frame.view && old->frame.light == known->frame.light;
-    });
-    _known.dropOldestBeyond(most - 1);
-    _known.add(std::move(known));
-}
-
 std::vector<std::uint8_t> TracedFrames::bitsOf(TracedFrame frame) {
-    const std::shared_ptr<const Known> before = find(frame);
+    std::shared_ptr<Last> last;
+    std::shared_ptr<const Known> before;
+    {
+        Lock lock(_mutex);
+        std::shared_ptr<Last>& known = _last.of(frame.view, frame.light, frame.frame);
+        if (!known) known = std::make_shared<Last>();
+        last = known;
+        before = last->known;
+    }
     const bool sameScene = before && before->scene.lock() == frame.scene;
     const auto pieces = sameScene ? before->pieces : piecesOf(frame.pieces.get());
     frame.pieces = nullptr;
@@ -248,7 +242,9 @@ std::vector<std::uint8_t> TracedFrames::bitsOf(TracedFrame frame) {
     TracedBits found =
         depthBufferShadow(*scene, frame.picture, frame.clipFromScene, frame.lightInScene, former ? &*former : nullptr);
     _traced += found.traced;
-    keep(std::make_shared<const Known>(Known{std::move(frame), scene, pieces, found.bits}));
+    auto now = std::make_shared<const Known>(Known{std::move(frame), scene, pieces, found.bits});
+    Lock lock(_mutex);
+    last->known.swap(now);
     return std::move(found.bits);
 }
 
@@ -300,6 +296,7 @@ std::vector<osg::ref_ptr<Mark>> TracedShadowTechnique::prepare(const ViewFrame& 
     mark->frame.lightInScene = *usable;
     mark->frame.light = light.number;
     mark->frame.view = view.key;
+    mark->frame.frame = view.frameNumber;
     mark->frame.origin = layers.origin;
     mark->frame.pieces = &casters;
     mark->frames = _frames;

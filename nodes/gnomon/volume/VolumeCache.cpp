@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <iterator>
 
 namespace gnomon {
 namespace {
@@ -56,18 +55,15 @@ std::optional<SeenVolumes> VolumeCache::see(const CasterLayers& casters, const V
                                             const glm::dvec4& light, const SceneFrame& scene) {
     const ReceiverBox receivers = receiversOf(view, scene);
     Lock lock(_mutex);
-    const auto [known, isNew] = _entries.try_emplace({view.key, lightNumber}, Entry{receivers, {}});
-    Entry& own = known->second;
-    // A light that is asked for twice begins a round as well, for views may count no frames.
-    if (view.frameNumber != _frame || (!isNew && own.used == _round)) ++_round;
-    _frame = view.frameNumber;
-    own.used = _round;
-    if (!own.receivers.fits(receivers)) own.receivers = receivers.grown();
+    Found& found = _found.of(view.key, lightNumber, view.frameNumber);
+    if (!found.receivers)
+        found.receivers = receivers;
+    else if (!found.receivers->fits(receivers))
+        found.receivers = receivers.grown();
     const std::vector<VolumeCaster> all = castersOf(casters);
-    own.volumes.resize(all.size());
-    for (std::size_t i = 0; i < all.size(); ++i) update(own.volumes[i], all[i], light, own.receivers);
-    dropUnused();
-    return seenVolumes(own.volumes, scene.clipFromScene(view));
+    found.volumes.resize(all.size());
+    for (std::size_t i = 0; i < all.size(); ++i) update(found.volumes[i], all[i], light, *found.receivers);
+    return seenVolumes(found.volumes, scene.clipFromScene(view));
 }
 
 /// Those of another light give up their memory, unless they are still drawn.
@@ -80,11 +76,6 @@ void VolumeCache::update(osg::ref_ptr<LightVolumes>& volumes, const VolumeCaster
     ++_builds;
 }
 
-void VolumeCache::dropUnused() {
-    for (auto entry = _entries.begin(); entry != _entries.end();)
-        entry = _round - entry->second.used > longUnused ? _entries.erase(entry) : std::next(entry);
-}
-
 unsigned VolumeCache::builds() const {
     Lock lock(_mutex);
     return _builds;
@@ -93,15 +84,15 @@ unsigned VolumeCache::builds() const {
 void VolumeCache::resizeGLObjectBuffers(unsigned maxSize) {
     Lock lock(_mutex);
     program->resizeGLObjectBuffers(maxSize);
-    for (const auto& [owner, entry] : _entries)
-        for (const auto& volumes : entry.volumes) volumes->resizeGLObjectBuffers(maxSize);
+    for (const auto& entry : _found)
+        for (const auto& volumes : entry->value.volumes) volumes->resizeGLObjectBuffers(maxSize);
 }
 
 void VolumeCache::release(osg::State* state) const {
     Lock lock(_mutex);
     program->releaseGLObjects(state);
-    for (const auto& [owner, entry] : _entries)
-        for (const auto& volumes : entry.volumes) volumes->releaseGLObjects(state);
+    for (const auto& entry : _found)
+        for (const auto& volumes : entry->value.volumes) volumes->releaseGLObjects(state);
 }
 
 } // namespace gnomon

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/ShadowLight.h>
-#include <gnomon/ViewFrame.h>
+#include <gnomon/group/PerView.h>
 #include <gnomon/volume/LightVolumes.h>
 
 #include <OpenThreads/Mutex>
 
-#include <map>
-#include <memory>
 #include <optional>
-#include <utility>
 #include <vector>
 
 namespace gnomon {
@@ -39,21 +36,17 @@ public:
 
 private:
     /// What was found for a light in a view.
-    struct Entry {
-        ReceiverBox receivers;                           ///< the same as before while it fits.
+    struct Found {
+        std::optional<ReceiverBox> receivers;            ///< the same as before while it fits.
         std::vector<osg::ref_ptr<LightVolumes>> volumes; ///< of each caster.
-        unsigned used = 0;                               ///< in which round.
     };
-    static constexpr unsigned longUnused = 64; ///< rounds.
 
     void update(osg::ref_ptr<LightVolumes>& volumes, const VolumeCaster& caster, const glm::dvec4& light,
                 const ReceiverBox& receivers);
-    void dropUnused();
 
     mutable OpenThreads::Mutex _mutex;
-    std::map<std::pair<ViewKey, int>, Entry> _entries; ///< by a view and a light's number.
+    PerView<Found> _found;
     unsigned _builds = 0;
-    unsigned _round = 0, _frame = 0; ///< a round is a frame.
 };
 
 } // namespace gnomon
