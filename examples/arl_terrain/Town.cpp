@@ -2,13 +2,20 @@
 #include "Town.h"
 #include "Mesh.h"
 
+#include <gnomon/ProgressLine.h>
+#include <gnomon/TerrainGround.h>
+
 #include <glm/trigonometric.hpp>
 #include <osg/Geode>
 #include <osg/Material>
+#include <osg/ShapeDrawable>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
+#include <sstream>
+#include <stdexcept>
 
 namespace gnomon::examples {
 namespace {
@@ -127,13 +134,11 @@ std::vector<Neighbours> neighbourhoodsOf(const std::vector<Lot>& lots, int plots
     return result;
 }
 
-} // namespace
-
-int TownPlan::plots() const { return static_cast<int>(std::ceil(std::sqrt(double(buildings)))); }
-double TownPlan::side() const { return plots() * plot; }
-
-osg::ref_ptr<osg::Group> makeTown(const Ground& ground, const glm::dvec2& centre, const TownPlan& plan,
-                                  const std::function<void(double)>& progress) {
+/// A group named "town": on the plots blocks turned at random, a fifth of them L-shaped, some towers, and some tanks of 20
+/// sides. Each stands in the ground, its foot 2 m below the lowest ground at its corners, and is one closed mesh. They are
+/// drawn by neighbourhoods, so that those out of sight can be left out. The same every time.
+/// @param ground    metres, all over the square.
+osg::ref_ptr<osg::Group> makeTown(const Ground& ground, const glm::dvec2& centre, const TownPlan& plan) {
     Dice dice;
     std::vector<Lot> lots;
     const int plots = plan.plots();
@@ -142,6 +147,7 @@ osg::ref_ptr<osg::Group> makeTown(const Ground& ground, const glm::dvec2& centre
         lots.push_back(lotFor(dice, corner + glm::dvec2(i % plots, i / plots) * plot));
     osg::ref_ptr<osg::Group> quarters[kinds];
     for (std::size_t k = 0; k < kinds; ++k) quarters[k] = quarterOf(looksOf[k]);
+    ProgressLine progress("building the town");
     const std::vector<Neighbours> neighbourhoods = neighbourhoodsOf(lots, plots);
     for (std::size_t i = 0; i < neighbourhoods.size(); ++i) {
         std::vector<Mesh> meshes[kinds];
@@ -149,12 +155,152 @@ osg::ref_ptr<osg::Group> makeTown(const Ground& ground, const glm::dvec2& centre
             meshes[lot->kind].push_back(building(ground, lot->outline, lot->height));
         for (std::size_t k = 0; k < kinds; ++k)
             if (!meshes[k].empty()) quarters[k]->addChild(node(joined(std::move(meshes[k]))));
-        progress(double(i + 1) / double(neighbourhoods.size()));
+        progress.show(double(i + 1) / double(neighbourhoods.size()));
     }
     osg::ref_ptr<osg::Group> town = new osg::Group;
     town->setName("town");
     for (const osg::ref_ptr<osg::Group>& quarter : quarters) town->addChild(quarter);
     return town;
+}
+
+constexpr double worthwhileRise = 0.1; // to the north, as a slope; more is no better
+constexpr unsigned mostTried = 100;    // places along an axis
+constexpr unsigned mostLooks = 16;     // along a side of the square
+constexpr double mostCells = 1e6;      // along a side of the square
+
+/// Cells from a post on, and how many.
+struct Cells {
+    unsigned column, row, columns, rows;
+};
+
+/// More than any model has where the step is none.
+unsigned cellsAcross(double side, double step) {
+    return static_cast<unsigned>(std::ceil(step * mostCells > side ? side / step : mostCells));
+}
+
+/// What speaks against a square.
+struct Slopes {
+    double steepest = 0.0, rise = 0.0; ///< along either axis; sum of those to the north.
+    unsigned count = 0;
+
+    /// @param east, north  from `here`, as heights and as ways.
+    bool take(float here, float east, float north, const glm::dvec2& way) {
+        if (!isHeight(here) || !isHeight(east) || !isHeight(north)) return false;
+        const double northward = double(north - here) / way.y;
+        steepest = std::max({steepest, std::abs(double(east - here) / way.x), std::abs(northward)});
+        rise += northward;
+        ++count;
+        return true;
+    }
+};
+
+/// Steepest slope less what the square rises to the north; infinite where a height is missing.
+double unfitness(const osg::HeightField& field, const Cells& cells) {
+    const unsigned right = cells.columns / mostLooks + 1, up = cells.rows / mostLooks + 1;
+    const glm::dvec2 way(right * double(field.getXInterval()), up * double(field.getYInterval()));
+    Slopes slopes;
+    for (unsigned row = cells.row; row + up <= cells.row + cells.rows; row += up)
+        for (unsigned column = cells.column; column + right <= cells.column + cells.columns; column += right)
+            if (!slopes.take(field.getHeight(column, row), field.getHeight(column + right, row),
+                             field.getHeight(column, row + up), way))
+                return std::numeric_limits<double>::infinity();
+    return slopes.steepest - std::min(slopes.rise / slopes.count, worthwhileRise);
+}
+
+[[noreturn]] void refuse(const osg::HeightField& field, double side) {
+    std::ostringstream sentence;
+    sentence << "the elevation model has no place for the town: " << side
+             << " m each way are needed, with no height missing. "
+             << "The model, whose unit must be metres, is "
+             << (field.getNumColumns() - 1) * double(field.getXInterval()) << " by "
+             << (field.getNumRows() - 1) * double(field.getYInterval()) << ".";
+    throw std::runtime_error(sentence.str());
+}
+
+constexpr double latitude = 36.6;                               // degrees
+constexpr double cameraAzimuth = 240.0, cameraDistance = 960.0; // degrees and m, from the town's middle
+constexpr double cameraHeight = 420.0, clearance = 60.0;        // m, above the town's middle and any ground below it
+constexpr double mostAway = 800.0 / cameraHeight;               // so many times: a large town is looked over from 800 m
+constexpr double townSeenWhole = 900.0;                         // m, its side
+
+osg::ref_ptr<osg::Geode> drawTerrain(osg::HeightField& field) {
+    osg::ref_ptr<osg::Geode> geode = new osg::Geode;
+    geode->addDrawable(new osg::ShapeDrawable(&field));
+    osg::ref_ptr<osg::Material> grass = new osg::Material;
+    grass->setAmbient(osg::Material::FRONT_AND_BACK, osg::Vec4(0.50f, 0.58f, 0.38f, 1.0f));
+    grass->setDiffuse(osg::Material::FRONT_AND_BACK, osg::Vec4(0.50f, 0.58f, 0.38f, 1.0f));
+    geode->getOrCreateStateSet()->setAttributeAndModes(grass);
+    geode->setName("terrain");
+    return geode;
+}
+
+void lookAt(ViewOptions& view, const Ground& ground, const glm::dvec2& middle, double side) {
+    const double azimuth = osg::DegreesToRadians(cameraAzimuth), away = std::clamp(side / townSeenWhole, 1.0, mostAway);
+    const glm::dvec2 eye = middle + away * cameraDistance * glm::dvec2(std::sin(azimuth), std::cos(azimuth));
+    const double low = ground.height(middle.x, middle.y).value_or(0.0);
+    const double below = ground.height(eye.x, eye.y).value_or(low);
+    view.center = osg::Vec3d(middle.x, middle.y, low);
+    view.eye = osg::Vec3d(eye.x, eye.y, std::max(low + away * cameraHeight, below + clearance));
+}
+
+void setLooks(ViewOptions& view, double hour) {
+    view.receiver = "terrain";
+    view.casters = "town";
+    view.ground = "none";
+    const SunPosition sun = townSun(hour);
+    view.lights = {sunAt(sun.azimuth, sun.elevation)};
+    view.ambient = 0.35;
+    view.diffuse = 0.9;
+    view.background = {0.62, 0.74, 0.88};
+}
+
+/// Fills in the view, too.
+osg::ref_ptr<osg::Group> makeScene(ViewOptions& view, double hour, osg::HeightField& field, const TownPlan& plan) {
+    field.setOrigin(osg::Vec3());
+    const std::shared_ptr<const Ground> ground = groundOf(field);
+    const glm::dvec2 middle = townSite(field, plan.side());
+    lookAt(view, *ground, middle, plan.side());
+    setLooks(view, hour);
+    osg::ref_ptr<osg::Group> scene = new osg::Group;
+    scene->addChild(drawTerrain(field));
+    scene->addChild(makeTown(*ground, middle, plan));
+    return scene;
+}
+
+} // namespace
+
+int TownPlan::plots() const { return static_cast<int>(std::ceil(std::sqrt(double(buildings)))); }
+double TownPlan::side() const { return plots() * plot; }
+
+glm::dvec2 townSite(const osg::HeightField& field, double side) {
+    Cells cells{0, 0, cellsAcross(side, field.getXInterval()), cellsAcross(side, field.getYInterval())};
+    const Cells first = cells;
+    Cells best = cells;
+    double least = std::numeric_limits<double>::infinity();
+    const unsigned acrossStep = field.getNumColumns() / mostTried + 1, alongStep = field.getNumRows() / mostTried + 1;
+    for (cells.row = 0; cells.row + cells.rows < field.getNumRows(); cells.row += alongStep)
+        for (cells.column = 0; cells.column + cells.columns < field.getNumColumns(); cells.column += acrossStep)
+            if (const double here = unfitness(field, cells); here < least) least = here, best = cells;
+    if (!(least < std::numeric_limits<double>::infinity())) refuse(field, side);
+    return {(best.column + first.columns / 2.0) * double(field.getXInterval()),
+            (best.row + first.rows / 2.0) * double(field.getYInterval())};
+}
+
+SunPosition townSun(double hour) {
+    const SunClock meridian(latitude, 0.0); // where UTC is mean solar time
+    return meridian.at(*julianDay("2026-03-20T00:00:00Z") + hour / 24.0);
+}
+
+TownScene::TownScene(ViewOptions view, double hour, osg::HeightField& terrain, const TownPlan& plan)
+    : _given(hour), _hour(hour), _view(std::move(view)) {
+    const osg::ref_ptr<osg::Group> scene = makeScene(_view, hour, terrain, plan);
+    _setup = setUpScene(_view, *scene);
+}
+
+void TownScene::setHour(double hour) {
+    _hour = hour;
+    const SunPosition given = townSun(_given), now = townSun(hour);
+    _setup.lights->move({now.azimuth - given.azimuth, now.elevation - given.elevation}, *_view.center);
 }
 
 } // namespace gnomon::examples

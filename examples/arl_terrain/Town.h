@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/Ground.h>
+#include "SceneSetup.h"
 
-#include <functional>
+#include <gnomon/SunClock.h>
+
 #include <glm/vec2.hpp>
-#include <osg/Group>
+#include <osg/Shape>
 
 namespace gnomon::examples {
 
@@ -15,13 +16,39 @@ struct TownPlan {
     double side() const; ///< metres, along the axes.
 };
 
-/// A group named "town": on the plots blocks turned at random, a fifth of them L-shaped, some towers, and some tanks of 20
-/// sides. Each stands in the ground, its foot 2 m below the lowest ground at its corners, and is one closed mesh. They are
-/// drawn by neighbourhoods, so that those out of sight can be left out. The same every time.
-/// @param ground    metres, all over the square.
-/// @param progress  told the share that is done, 0 … 1.
-osg::ref_ptr<osg::Group> makeTown(
-    const Ground& ground, const glm::dvec2& centre, const TownPlan& plan = {},
-    const std::function<void(double)>& progress = [](double) {});
+/// Middle of the square of this side, along the axes, where a town stands best: its steepest cell is gentle, it rises
+/// to the north, so that the sun is on it, and no post in it lacks a height, as far as 16 posts a side tell.
+/// @param field  its origin is 0, and its rotation none.
+/// @param side   field's unit, > 0.
+/// @throws std::runtime_error, one sentence, if the field has no such square.
+glm::dvec2 townSite(const osg::HeightField& field, double side);
+
+/// Mean solar time at which the sun is up; at the ends 4.7 and 7.6 degrees, whatever the model.
+constexpr double firstHour = 6.5, lastHour = 17.5;
+
+/// The sun over the Jacksboro fault (36.6° north) on 20 March 2026.
+SunPosition townSun(double hour);
+
+/// A town on an elevation model: nodes "town", which casts, and "terrain", which receives; a camera that looks over it.
+class TownScene {
+public:
+    /// @param view    shadows and picture's size; what else it says is not looked at.
+    /// @param plan    of the town. ProgressLine is shown on a terminal.
+    /// @param terrain metres. Its origin becomes 0, so that floats suffice.
+    /// @throws std::runtime_error, one sentence, if it has no place for a town.
+    TownScene(ViewOptions view, double hour, osg::HeightField& terrain, const TownPlan& plan = {});
+
+    /// @param hour  firstHour to lastHour.
+    void setHour(double hour);
+    double hour() const { return _hour; }
+    const ViewOptions& view() const { return _view; }
+    SceneSetup& setup() { return _setup; }
+    const SceneSetup& setup() const { return _setup; }
+
+private:
+    double _given, _hour;
+    ViewOptions _view;
+    SceneSetup _setup;
+};
 
 } // namespace gnomon::examples

@@ -3,7 +3,7 @@
 #include "Example.h"
 #include "InputFile.h"
 #include "ScenePicture.h"
-#include "TownScene.h"
+#include "Town.h"
 
 #include <algorithm>
 #include <cmath>

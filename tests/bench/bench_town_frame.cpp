@@ -6,7 +6,7 @@
 
 #include <FrameTime.h>
 #include <InputFile.h>
-#include <TownScene.h>
+#include <Town.h>
 
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ShadowVolumeTechnique.h>

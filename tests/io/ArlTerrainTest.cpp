@@ -2,7 +2,7 @@
 // arl_terrain as users run it: pictures of the town by each technique and time of day, the window's keys.
 #include "ExampleProgram.h"
 
-#include <TownSite.h>
+#include <Town.h>
 
 #include <osg/Vec2d>
 #include <osgDB/ReadFile>
