@@ -101,6 +101,10 @@ TEST_F(Gnomonchart, PointsHaveWhatAutoPredictsBesideWhatWasMeasured) {
     for (const json& point : file["points"]) {
         techniques.insert(point["technique"].get<std::string>());
         const json& predicted = point["prediction"];
+        if (point["technique"] != "auto") {
+            EXPECT_TRUE(predicted.is_null()) << point["technique"];
+            continue;
+        }
         ASSERT_TRUE(predicted.is_object()) << point["setting"] << ": " << point["failure"];
         EXPECT_GT(predicted["boundaryP95Pixels"], 0.0);
         for (const json* part : {&predicted["steadyProcessor"], &predicted["movingProcessor"]})

@@ -114,16 +114,16 @@ private:
     };
 };
 
-/// What is drawn to learn from is not what a user gets.
-TEST(Race, CountsDrawsOfAContenderThatLearnsOnlyAfterwards) {
-    Contender quick = plainContender();
-    quick.stage = [](const ChartScene& scene, Look look) {
-        return std::make_unique<LearningStaging>(scene, look, 60u);
+/// What is drawn until auto has chosen is not what a user gets.
+TEST(Race, CountsDrawsOnlyOnceTwelveFramesAreDrawn) {
+    const auto twiceIn = [](unsigned frames) {
+        Contender contender = plainContender();
+        contender.stage = [frames](const ChartScene& scene, Look look) {
+            return std::make_unique<LearningStaging>(scene, look, frames);
+        };
+        return contender;
     };
-    Contender learner = quick;
-    learner.learns = true;
-    const std::vector<Contender> all = {plainContender(), quick, learner};
-    const RaceResults results = raced(test::smallScene(), all);
+    const RaceResults results = raced(test::smallScene(), {plainContender(), twiceIn(60), twiceIn(12)});
     const unsigned plain = results.contenders[0].cost->draws;
     EXPECT_EQ(results.contenders[1].cost->draws, 2 * plain);
     EXPECT_EQ(results.contenders[2].cost->draws, plain);
@@ -195,7 +195,7 @@ TEST(Race, StoppedEarlyItKeepsWhatItHas) {
     const auto until = [](int last) { return [last](int done, int) { return done < last; }; };
     const std::vector<Contender> one = {defaultsOf("ShadowMap")};
     EXPECT_FALSE(race(test::smallScene(), one, 4, shaders(), until(0)).contenders[0].cost);
-    EXPECT_TRUE(race(test::smallScene(), one, 4, shaders(), until(17)).contenders[0].cost);
+    EXPECT_TRUE(race(test::smallScene(), one, 4, shaders(), until(31)).contenders[0].cost);
 }
 
 TEST(Race, AContenderThatFailsIsOutAndTheOthersRun) {

@@ -34,11 +34,10 @@ struct PredictedTime {
     double time = 0.0; ///< ms of processor time that shadows add to a frame.
 };
 
-/// What auto's model expects of a point: for a point of auto what it chose, for a fixed setting the candidate that is it.
+/// What auto expects of its own choice.
 struct ChartPrediction {
-    std::string spec; ///< of the still picture.
-    std::optional<double>
-        error; ///< px, 95th percentile, of the still picture; none if other things may get shadow, too.
+    std::string spec;             ///< of the still picture.
+    double error = 0.0;           ///< px, 95th percentile, of the still picture.
     PredictedTime steady, moving; ///< as ChartCost has them.
 };
 
@@ -51,7 +50,7 @@ struct ChartPoint {
     std::vector<std::pair<std::string, std::string>> settings; ///< all that differ from the technique's own defaults.
     std::optional<ChartCost> cost;
     std::optional<metrics::ShadowMetrics> errors;
-    std::optional<ChartPrediction> prediction; ///< none if auto has no such candidate, or holds it for wrong here.
+    std::optional<ChartPrediction> prediction; ///< of a point of auto.
     std::optional<double> shadedRmse;          ///< of the shaded picture against the traced one, linear, 0 to 1.
     std::optional<double> flickerEnergy, flickerShare, crawl; ///< see metrics::FlickerMeter.
     std::string picture, overlay;   ///< PNG files, relative to the results' folder; may be empty.

@@ -3,7 +3,6 @@
 #include "Complaints.h"
 #include "Contender.h"
 #include "FlickerRun.h"
-#include "Forecasts.h"
 #include "ImageFile.h"
 #include "OutputFile.h"
 #include "Race.h"
@@ -112,7 +111,6 @@ private:
         _done += truthWork;
         makeFilms(yardstick);
         _field = {_results.points.size(), {}, {}};
-        _forecasts.emplace(yardstick.scene());
         for (const Entrant& entry : _entries) {
             if (_stops()) return;
             measureContender(entry, yardstick);
@@ -120,7 +118,6 @@ private:
             _save(_results);
         }
         _films.clear();
-        _forecasts.reset();
         raceAll(yardstick.scene());
     }
 
@@ -194,7 +191,6 @@ private:
         Sight sight(contender, yardstick.scene());
         const metrics::Visibility visibility = sight.visibility();
         point.notes = sight.diagnosis();
-        point.prediction = _forecasts->of(contender);
         if (!sight.decisions().empty()) point.prediction = predictionOf(sight.decisions().front());
         point.errors = metrics::shadowMetrics(visibility, yardstick.maps(), yardstick.limits());
         write(*errorOverlay(visibility.value, yardstick.maps()), point.overlay = base + "-errors.png");
@@ -265,8 +261,7 @@ private:
     TimeLeft _progress;
     double _done = 0.0;
     Field _field;
-    std::optional<Forecasts> _forecasts; ///< of the scene that is being measured.
-    std::vector<Film> _films;            ///< of the scene that is being measured.
+    std::vector<Film> _films; ///< of the scene that is being measured.
     ChartResults _results;
 };
 

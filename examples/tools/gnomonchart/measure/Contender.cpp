@@ -228,7 +228,6 @@ std::vector<Contender> gnomonContenders() {
 Contender gnomonContender(const std::string& spec, Receives receives) {
     Contender result{ourKit, "", "", {{"--shadow", spec}}, {}};
     result.receives = receives;
-    result.learns = parseShadowSpec(spec).technique == "auto";
     result.stage = [spec, receives](const ChartScene& scene, Look look) {
         return std::make_unique<GnomonStaging>(specFor(spec, receives, scene), scene, look);
     };

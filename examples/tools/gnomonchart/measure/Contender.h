@@ -23,7 +23,6 @@ struct Contender {
     /// @throws std::invalid_argument, one sentence, if it does not suit the scene.
     std::function<std::unique_ptr<Staging>(const ChartScene& scene, Look look)> stage;
     Receives receives = Receives::EVERYTHING;
-    bool learns = false; ///< It draws otherwise once it has seen some frames.
 };
 
 /// The scene without shadows, which all are timed against.

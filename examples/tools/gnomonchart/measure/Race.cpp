@@ -22,8 +22,7 @@
 namespace gnomon::examples {
 namespace {
 
-constexpr int warmUp = 5;
-constexpr int learning = 128;                       // frames: auto knows what moves, and has an error that keeps a time
+constexpr int warmUp = 12;                          // frames: from the ninth on auto has chosen for what moves
 constexpr double cameraStep = 0.5, lightStep = 1.0; // degrees a frame
 
 /// Times by rounds.
@@ -79,7 +78,6 @@ struct Runner {
     double first = 0.0, memory = 0.0;
     std::size_t draws = 0, primitives = 0;
     unsigned passes = 0;
-    bool learns = false;
     std::string failure;
 
     std::optional<PredictedTime> expectedNow(std::size_t motion) const {
@@ -95,19 +93,13 @@ struct Runner {
         return viewer->time();
     }
 
-    /// Frames that count for nothing, before those of one motion.
-    void learn(const ChartScene& scene, std::size_t motion) {
-        for (int round = -learning; learns && round < 0; ++round) draw(scene, motion, round);
-    }
-
     void start(const Contender& contender, const ChartScene& scene, const ShaderCache& shaders) {
-        learns = contender.learns;
         shaders.empty();
         const double before = residentMiB();
         viewer = std::make_unique<StageViewer>(contender.stage(scene, Look::SHADED), scene.camera,
                                                StageViewer::Colour::BYTES);
         first = viewer->time().wall;
-        learn(scene, 0);
+        for (int round = -warmUp; round < 0; ++round) draw(scene, 0, round);
         viewer->setCamera(scene.camera);
         viewer->draw();
         memory = residentMiB() - before;
@@ -144,8 +136,6 @@ public:
         const int all = 2 * (_frames + warmUp);
         for (int round = 0; round < all && progress(round, all); ++round) {
             const std::size_t motion = round < all / 2 ? 0 : 1;
-            if (round == all / 2)
-                for (Runner& runner : _runners) guarded(runner, [this](Runner& r) { r.learn(_scene, 1); });
             draw(motion, motion == 0 ? round : round - all / 2);
         }
     }

@@ -53,10 +53,9 @@ struct RaceResults {
 /// Moving        the light goes a degree a frame.
 /// Memory        growth of the process's resident set by the contender's context, viewer and first frames, beyond the
 ///               plain viewer's: on OSMesa that holds the textures, too.
-/// Learning      a contender that learns draws 128 frames of either motion before. They count for nothing but its memory.
-/// Draws         calls that draw, and triangles handed to OpenGL, in one steady frame. Passes  cameras that draw in it.
+/// Draws         calls that draw, and triangles handed to OpenGL, in one steady frame after twelve. Passes  cameras that draw in it.
 ///
-/// @param frames    of each of the two motions, after five to warm up.
+/// @param frames    of each of the two motions, after twelve to warm up.
 /// @param progress  called before each round with rounds done and to do; false stops the race, and what it has counts.
 RaceResults race(const ChartScene& scene, const std::vector<Contender>& contenders, int frames,
                  const ShaderCache& shaders, const std::function<bool(int done, int all)>& progress);
