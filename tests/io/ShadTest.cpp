@@ -46,9 +46,10 @@ struct Judgement {
     double worst = 0.0;
 };
 
+/// Every second row: 26 rays a lamp and pixel.
 Judgement judge(const osg::Image& image, const TracedScene& scene, const std::vector<TracedLamp>& lamps, Sum sum) {
     Judgement result;
-    for (int y = 0; y < image.t(); ++y)
+    for (int y = 0; y < image.t(); y += 2)
         for (int x = 0; x < image.s(); ++x) {
             const auto expected = scene.color(x, y, lamps, sum);
             if (!expected) continue;
@@ -65,8 +66,8 @@ void expectRight(const osg::Image& image, const std::vector<TracedLamp>& lamps, 
     const TracedScene scene(SHAD_SCENE, 0.85, onOrbit(25.0, azimuth, 2.3), {640, 512});
     const Judgement found = judge(image, scene, lamps, sum);
     EXPECT_EQ(found.wrong, 0) << "worst " << found.worst;
-    EXPECT_GT(found.pixels, 40000);
-    EXPECT_GT(found.shadowed, 20000);
+    EXPECT_GT(found.pixels, 20000);
+    EXPECT_GT(found.shadowed, 10000);
 }
 
 /// Where nothing is seen, as in the upper left corner; it stays where it is while the eye does.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "Compare.h"
-#include "Soup.h"
+#include <support/Soup.h>
 
 #include <gnomon/geometry/ClosedParts.h>
 #include <gnomon/geometry/MeshEdges.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Casters as convex pieces: their shadows together against rays at the casters' triangles in double.
-#include "Soup.h"
+#include <support/Soup.h>
 
 #include <gnomon/geometry/ConvexParts.h>
 #include <gnomon/geometry/ConvexPolygons.h>

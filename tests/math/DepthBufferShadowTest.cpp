@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Depths that were not taken at their pixel's centre: of a flat ground, where each is known in closed form.
-#include "Soup.h"
+#include <support/Soup.h>
 
 #include <gnomon/rays/DepthBufferShadow.h>
 #include <gtest/gtest.h>

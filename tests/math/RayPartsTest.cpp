@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A RayScene of placed parts against every triangle tested in double where it stands.
-#include "Soup.h"
+#include <support/Soup.h>
 
 #include <gnomon/RayScene.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // RayScene against an intersector that tests every triangle in double; shared edges, offsets, bulk, UTM, bad input.
-#include "Soup.h"
+#include <support/Soup.h>
 
 #include <gnomon/RayScene.h>
 

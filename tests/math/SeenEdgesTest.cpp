@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "Soup.h"
+#include <support/Soup.h>
 
 #include <gnomon/mapfit/MapFit.h>
 #include <gnomon/mapfit/SeenEdges.h>

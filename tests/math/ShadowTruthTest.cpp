@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The truth image against shadows that need no rays: polygons and ellipses on planes, areas, the penumbra of a half-plane.
-#include "Soup.h"
+#include <support/Soup.h>
 
 #include <gnomon/ShadowTruth.h>
 

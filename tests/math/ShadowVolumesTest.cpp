@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Volumes behind meshes: how many hold a point is how many triangles are between it and the light.
-#include "Soup.h"
+#include <support/Soup.h>
 
 #include <gnomon/silhouette/ShadowVolumes.h>
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <support/Oracle.h>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace test {
@@ -15,15 +17,53 @@ struct Ray {
     glm::dvec3 start, along;
 };
 
-/// Smallest t > after at which the ray meets a triangle of the mesh (Möller and Trumbore 1997).
-double meets(const Ray& ray, const Mesh& mesh, double after) {
+/// Some triangles of a mesh, and a box about them: most rays pass most of them by.
+struct Piece {
+    /// True of a ray that passes the box, wherever it starts. A coordinate that is no number leaves all to the triangles.
+    bool isPassedBy(const Ray& ray) const {
+        double enter = -never, leave = never;
+        for (int i = 0; i < 3; ++i) {
+            if (ray.along[i] == 0.0 && (ray.start[i] < low[i] || ray.start[i] > high[i])) return true;
+            const double one = (low[i] - ray.start[i]) / ray.along[i], other = (high[i] - ray.start[i]) / ray.along[i];
+            if (!std::isfinite(one) || !std::isfinite(other)) continue;
+            enter = std::max(enter, std::min(one, other));
+            leave = std::min(leave, std::max(one, other));
+        }
+        return enter > leave;
+    }
+
+    const glm::dvec3 *first, *end;
+    glm::dvec3 low{never}, high{-never};
+};
+
+std::vector<Piece> piecesOf(const std::vector<Mesh>& meshes) {
+    constexpr std::size_t most = 3 * 128; // corners: less takes longer for the boxes
+    std::vector<Piece> pieces;
+    for (const Mesh& mesh : meshes)
+        for (std::size_t i = 0; i + 2 < mesh.size(); i += most) {
+            Piece piece{mesh.data() + i, mesh.data() + std::min(i + most, mesh.size() / 3 * 3)};
+            for (const glm::dvec3* corner = piece.first; corner != piece.end; ++corner) {
+                piece.low = glm::min(piece.low, *corner);
+                piece.high = glm::max(piece.high, *corner);
+            }
+            const glm::dvec3 size = piece.high - piece.low, away = glm::max(glm::abs(piece.low), glm::abs(piece.high));
+            piece.low -= 1e-3 * size + 1e-9 * away;
+            piece.high += 1e-3 * size + 1e-9 * away;
+            pieces.push_back(piece);
+        }
+    return pieces;
+}
+
+/// Smallest t > after at which the ray meets a triangle of the piece (Möller and Trumbore 1997).
+double meets(const Ray& ray, const Piece& piece, double after) {
     double nearest = never;
-    for (std::size_t i = 0; i + 2 < mesh.size(); i += 3) {
-        const glm::dvec3 e1 = mesh[i + 1] - mesh[i], e2 = mesh[i + 2] - mesh[i];
+    if (piece.isPassedBy(ray)) return nearest;
+    for (const glm::dvec3* corner = piece.first; corner != piece.end; corner += 3) {
+        const glm::dvec3 e1 = corner[1] - corner[0], e2 = corner[2] - corner[0];
         const glm::dvec3 p = glm::cross(ray.along, e2);
         const double determinant = glm::dot(e1, p);
         if (determinant == 0.0) continue;
-        const glm::dvec3 s = ray.start - mesh[i];
+        const glm::dvec3 s = ray.start - corner[0];
         const double u = glm::dot(s, p) / determinant;
         const glm::dvec3 q = glm::cross(s, e1);
         const double v = glm::dot(ray.along, q) / determinant;
@@ -39,20 +79,20 @@ glm::dvec3 unproject(const osg::Matrixd& worldFromClip, double x, double y, doub
     return {point.x(), point.y(), point.z()};
 }
 
-bool shadowed(const glm::dvec3& point, const std::vector<Mesh>& casters, const osg::Vec4d& light) {
+bool shadowed(const glm::dvec3& point, const std::vector<Piece>& casters, const osg::Vec4d& light) {
     const glm::dvec3 given(light.x(), light.y(), light.z());
     const bool sun = light.w() == 0.0;
     const Ray ray{point, sun ? glm::normalize(given) : given / light.w() - point};
-    for (const Mesh& caster : casters)
-        if (meets(ray, caster, 1e-9) < (sun ? never : 1.0)) return true;
+    for (const Piece& piece : casters)
+        if (meets(ray, piece, 1e-9) < (sun ? never : 1.0)) return true;
     return false;
 }
 
-Seen see(const Ray& ray, const Mesh& receiver, const std::vector<Mesh>& casters, const std::vector<Mesh>& clear,
-         const osg::Vec4d& light) {
-    const double ground = meets(ray, receiver, 0.0);
-    double caster = never;
-    for (const Mesh& mesh : casters) caster = std::min(caster, meets(ray, mesh, 0.0));
+Seen see(const Ray& ray, const std::vector<Piece>& receiver, const std::vector<Piece>& casters,
+         const std::vector<Piece>& clear, const osg::Vec4d& light) {
+    double ground = never, caster = never;
+    for (const Piece& piece : receiver) ground = std::min(ground, meets(ray, piece, 0.0));
+    for (const Piece& piece : casters) caster = std::min(caster, meets(ray, piece, 0.0));
     if (std::min(ground, caster) == never) return Seen::Nothing;
     if (caster <= ground) return Seen::Caster;
     const glm::dvec3 point = ray.start + ground * ray.along;
@@ -74,6 +114,8 @@ bool Mask::atEdge(int x, int y, int reach) const {
 Mask castRays(const Mesh& receiver, const std::vector<Mesh>& casters, const osg::Vec4d& light, const View& view,
               const std::vector<Mesh>& clear) {
     const osg::Matrixd worldFromClip = osg::Matrixd::inverse(view.view * view.projection);
+    const std::vector<Mesh> receivers{receiver}; // pieces point into it
+    const std::vector<Piece> ground = piecesOf(receivers), solid = piecesOf(casters), seenThrough = piecesOf(clear);
     Mask mask;
     mask.width = view.width;
     mask.height = view.height;
@@ -81,7 +123,7 @@ Mask castRays(const Mesh& receiver, const std::vector<Mesh>& casters, const osg:
         for (int x = 0; x < view.width; ++x) {
             const double u = (x + 0.5) / view.width * 2.0 - 1.0, v = (y + 0.5) / view.height * 2.0 - 1.0;
             const glm::dvec3 start = unproject(worldFromClip, u, v, -1.0), end = unproject(worldFromClip, u, v, 1.0);
-            mask.pixels.push_back(see({start, end - start}, receiver, casters, clear, light));
+            mask.pixels.push_back(see({start, end - start}, ground, solid, seenThrough, light));
         }
     return mask;
 }
