@@ -63,7 +63,7 @@ bool isRough(const Contender& contender) { return contender.technique == "box"; 
 class EveryContender : public ::testing::TestWithParam<Contender> {};
 
 /// peers.md's own trials: all of them find this shadow. An IoU of 0.95 allows one pixel in twenty of the shadow, about
-/// half a pixel all along its edge (2,000 pixels inside a boundary of 250).
+/// half a pixel all along its edge (2,000 pixels inside a boundary of 250). Under another light, about 4 degrees off, it is worse.
 TEST_P(EveryContender, ShowsTheShadowsThatAreTrue) {
     const ShadowMetrics errors = errorsOf(GetParam(), smallYardstick().scene(), smallYardstick());
     const bool rough = isRough(GetParam());
@@ -72,40 +72,23 @@ TEST_P(EveryContender, ShowsTheShadowsThatAreTrue) {
     EXPECT_LT(errors.boundary->p95, rough ? 20.0 : 1.0);
     EXPECT_FALSE(errors.catastrophes.any());
     EXPECT_TRUE(errors.sound) << errors.droppedShare;
+    if (rough) return; // as wrong already
+    ChartScene turned = smallYardstick().scene();
+    turned.light = {1.0, 0.4, 1.2, 0.0};
+    const ShadowMetrics wrong = errorsOf(GetParam(), turned, smallYardstick());
+    EXPECT_GT(wrong.boundary->p95, 2.0 + errors.boundary->p95);
+    EXPECT_GT(wrong.raw.falseShadow, errors.raw.falseShadow);
 }
 
-/// Shaders round other than fixed function does: by a millionth.
-TEST_P(EveryContender, WithoutCastersIsTheSceneWithoutShadows) {
-    const ChartScene scene = test::smallScene();
+/// Casters off, on and off again. What V = A / B rests on: what the light does not reach is 0, not nearly 0; one pixel in
+/// five may be nearer to the shadow's edge than a filter is wide. Without casters it is the scene without shadows: shaders
+/// round other than fixed function does, by a millionth.
+TEST_P(EveryContender, DrawsFullShadowBlackAndNoneWhileCastersAreOff) {
+    const ChartScene& scene = smallYardstick().scene();
     StageViewer viewer = viewerOf(GetParam(), scene, Look::VISIBILITY);
     StageViewer plain = viewerOf(plainContender(), scene, Look::VISIBILITY);
-    viewer.staging().setCasting(false);
-    osg::StateSet &ours = *viewer.staging().root().getOrCreateStateSet(),
-                  &theirs = *plain.staging().root().getOrCreateStateSet();
-    if (auto* ambient = ours.getAttribute(osg::StateAttribute::LIGHTMODEL)) theirs.setAttribute(ambient); // BLEND's
-    viewer.draw();
-    plain.draw();
-    const Picture with = greysOf(*viewer.image()), without = greysOf(*plain.image());
-    for (std::size_t i = 0; i < with.cells.size(); ++i) ASSERT_NEAR(with.cells[i], without.cells[i], 1e-6) << i;
-}
-
-TEST_P(EveryContender, CastersOffAndOnAgainIsTheSamePicture) {
-    StageViewer viewer = viewerOf(GetParam(), test::smallScene(), Look::VISIBILITY);
     viewer.draw();
     const Bytes first = bytesOf(viewer);
-    viewer.staging().setCasting(false);
-    viewer.draw();
-    EXPECT_NE(bytesOf(viewer), first);
-    viewer.staging().setCasting(true);
-    viewer.draw();
-    EXPECT_EQ(bytesOf(viewer), first);
-}
-
-/// What V = A / B rests on: what the light does not reach is 0, not nearly 0. One pixel in five may be nearer to the
-/// shadow's edge than a filter is wide.
-TEST_P(EveryContender, DrawsFullShadowBlack) {
-    StageViewer viewer = viewerOf(GetParam(), smallYardstick().scene(), Look::VISIBILITY);
-    viewer.draw();
     const Picture picture = greysOf(*viewer.image());
     const gnomon::metrics::TruthMaps& truth = smallYardstick().maps();
     const gnomon::metrics::Mask certain = gnomon::metrics::pixelSets(truth, picture).certain;
@@ -117,13 +100,27 @@ TEST_P(EveryContender, DrawsFullShadowBlack) {
     }
     EXPECT_GT(shadowed, 1000);
     EXPECT_GT(black, shadowed * 4 / 5);
+
+    viewer.staging().setCasting(false);
+    osg::StateSet &ours = *viewer.staging().root().getOrCreateStateSet(),
+                  &theirs = *plain.staging().root().getOrCreateStateSet();
+    if (auto* ambient = ours.getAttribute(osg::StateAttribute::LIGHTMODEL)) theirs.setAttribute(ambient); // BLEND's
+    viewer.draw();
+    plain.draw();
+    const Picture with = greysOf(*viewer.image()), without = greysOf(*plain.image());
+    for (std::size_t i = 0; i < with.cells.size(); ++i) ASSERT_NEAR(with.cells[i], without.cells[i], 1e-6) << i;
+
+    viewer.staging().setCasting(true);
+    viewer.draw();
+    EXPECT_EQ(bytesOf(viewer), first);
 }
 
 std::string testName(const ::testing::TestParamInfo<Contender>& tested) { return nameOf(tested.param); }
 INSTANTIATE_TEST_SUITE_P(Chart, EveryContender, ::testing::ValuesIn(everyContender()), testName);
 
-TEST(Contenders, DrawTheSameBitsAloneAndAmongOthers) {
+TEST(Contenders, DrawTheSameBitsAloneAndAmongOthersAndLeaveTheScenesOwnNodesAsTheyAre) {
     const ChartScene scene = test::smallScene();
+    const Bytes before = pictureOf(plainContender(), scene, Look::SHADED);
     const std::vector<Contender> all = everyContender();
     std::vector<Bytes> alone;
     const auto viewerFor = [&](const Contender& contender) {
@@ -142,6 +139,9 @@ TEST(Contenders, DrawTheSameBitsAloneAndAmongOthers) {
         for (const auto& viewer : viewers) viewer->draw();
     for (std::size_t i = 0; i < all.size(); ++i)
         EXPECT_EQ(bytesOf(*viewers[all.size() - 1 - i]), alone[i]) << all[i].technique << " " << all[i].setting;
+    EXPECT_EQ(pictureOf(plainContender(), scene, Look::SHADED), before);
+    for (unsigned i = 0; i < scene.content->getNumChildren(); ++i)
+        EXPECT_EQ(scene.content->getChild(i)->getNodeMask(), ~0u);
 }
 
 TEST(Contenders, WorseMapsAreWorseOnTheChart) {
@@ -152,19 +152,6 @@ TEST(Contenders, WorseMapsAreWorseOnTheChart) {
     EXPECT_GT(coarse.boundary->p95, 2.0 * fine.boundary->p95);
     EXPECT_GT(*coarse.headline.misclassified(), *fine.headline.misclassified());
     EXPECT_LT(coarse.headline.intersectionOverUnion(), fine.headline.intersectionOverUnion());
-}
-
-TEST(Contenders, AWrongLightIsWorseOnTheChart) {
-    const Yardstick& yardstick = smallYardstick();
-    ChartScene turned = yardstick.scene();
-    turned.light = {1.0, 0.4, 1.2, 0.0}; // about 4 degrees off
-    for (const Contender& contender : everyContender()) {
-        if (isRough(contender)) continue; // as wrong already
-        const ShadowMetrics right = errorsOf(contender, yardstick.scene(), yardstick);
-        const ShadowMetrics wrong = errorsOf(contender, turned, yardstick);
-        EXPECT_GT(wrong.boundary->p95, 2.0 + right.boundary->p95) << contender.technique;
-        EXPECT_GT(wrong.raw.falseShadow, right.raw.falseShadow) << contender.technique;
-    }
 }
 
 /// A lamp above: what a single map aimed at the scene can show.
@@ -192,15 +179,6 @@ TEST(Contenders, WithoutANamedReceiverSomeSayWhyTheyCannot) {
 TEST(Contenders, RefuseSettingsThatTheyLack) {
     const Contender contender = peerContender(peerNamed("Standard"), "", {{"polygonOffset", "1,1"}});
     EXPECT_THROW(contender.stage(test::smallScene(), Look::SHADED), std::invalid_argument);
-}
-
-TEST(Contenders, LeaveTheScenesOwnNodesAsTheyAre) {
-    const ChartScene scene = test::smallScene();
-    const Bytes before = pictureOf(plainContender(), scene, Look::SHADED);
-    for (const Contender& contender : everyContender()) pictureOf(contender, scene, Look::SHADED);
-    EXPECT_EQ(pictureOf(plainContender(), scene, Look::SHADED), before);
-    for (unsigned i = 0; i < scene.content->getNumChildren(); ++i)
-        EXPECT_EQ(scene.content->getChild(i)->getNodeMask(), ~0u);
 }
 
 } // namespace
