@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 #include <osg/Geometry>
 #include <osg/MatrixTransform>
-#include <osg/observer_ptr>
 
 #include <algorithm>
 #include <cmath>
@@ -165,32 +164,4 @@ TEST(AutoLights, ALightThatTakesLightAwayCasts) {
         return render(trial.scene.root, view);
     };
     EXPECT_GT(drawn(true).different(drawn(false)), 1000);
-}
-
-TEST(AutoCasters, ThatAreGoneAreLetGo) {
-    const Mesh tall = box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0});
-    AutoTrial trial({tall});
-    Camera camera(trial.scene.root, perspective({-6.0, -10.0, 8.0}, {0.0, 0.0, 0.0}, 80, 60));
-    std::vector<osg::observer_ptr<osg::Array>> gone;
-    const auto watch = [&gone](osg::Node& of) {
-        gone.push_back(of.asGeode()->getDrawable(0)->asGeometry()->getVertexArray());
-    };
-    for (int i = 0; i < 80; ++i) {
-        const double x = 0.1 * (i % 40) - 2.0;
-        const osg::ref_ptr<osg::Geode> tile = node(box({x, 2.0, 0.0}, {x + 0.5, 3.0, 1.0}), "tile");
-        watch(*tile);
-        trial.scene.content->addChild(tile);
-        for (int frame = 0; frame < 2; ++frame) camera.viewer().frame();
-        trial.scene.content->removeChild(tile);
-        camera.viewer().frame();
-    }
-    for (int i = 0; i < 150; ++i) camera.viewer().frame();
-    const auto alive = [&gone] {
-        return std::count_if(gone.begin(), gone.end(), [](const auto& array) { return array.valid(); });
-    };
-    EXPECT_EQ(alive(), 0) << "of 80 tiles";
-    watch(*find(*trial.scene.root, "caster"));
-    trial.scene.content->removeChildren(0, trial.scene.content->getNumChildren());
-    for (int i = 0; i < 150; ++i) camera.viewer().frame();
-    EXPECT_EQ(alive(), 0) << "of the last caster";
 }

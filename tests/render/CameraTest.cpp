@@ -261,21 +261,6 @@ TEST_P(CameraState, SlavesSideBySideInOneContext) {
     EXPECT_TRUE(judge(half(actual, true), half(lit, true), half(dark, true), right.mask()));
 }
 
-// Each has a context, and so display lists, programs and buffers, of its own.
-TEST_P(CameraState, TwoViewersOfOneSceneTakeTurns) {
-    TwoGrounds place = GetParam(), other = place;
-    other.view = perspective({5.0, -9.0, 9.0}, {-0.5, 0.0, 0.0}, 240, 180, 30.0);
-    Scene scene = place.build();
-    place.addShadow(scene);
-    Camera first(scene.root, place.view), second(scene.root, other.view);
-    const Frames lit = unshadowed(place, {}, false), dark = unshadowed(place, {}, true),
-                 otherLit = unshadowed(other, {}, false), otherDark = unshadowed(other, {}, true);
-    for (int frame = 0; frame < 3; ++frame) {
-        EXPECT_TRUE(judge(first.frame(), lit.third, dark.third, place.mask())) << frame;
-        EXPECT_TRUE(judge(second.frame(), otherLit.third, otherDark.third, other.mask())) << frame;
-    }
-}
-
 // Two stages draw into the same pixels one after the other, each in channels of its own. The eyes see the same.
 TEST_P(CameraState, AnaglyphStereo) {
     Trial trial;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Nodes that choose what is drawn, beside LOD: tiles that an osgDB::DatabasePager loads, Sequence and Switch, and bodies that
-// move as a whole under levels of detail. Each picture equals that of what is drawn, without any choice.
+// Nodes that choose what is drawn, beside LOD: tiles that an osgDB::DatabasePager loads, and bodies that move as a whole under
+// levels of detail. Each picture equals that of what is drawn, without any choice.
 #include "Hills.h"
 
 #include <support/Picture.h>
@@ -19,7 +19,6 @@
 
 #include <cstdio>
 #include <functional>
-#include <set>
 #include <thread>
 
 using namespace test;
@@ -146,40 +145,6 @@ TEST(PagedLevels, OfTilesCastAsTheyAreDrawnAlsoWhereTheyAreLeftBehind) {
         EXPECT_GT(first.different(expectedFrom(here, {})), 40) << "there are shadows";
     }
     osgDB::Registry::instance()->removeReaderWriter(reader);
-}
-
-TEST(PagedLevels, ASequenceCastsTheChildThatItShows) {
-    for (const auto& [name, technique] : {std::pair("traced", traced), {"map", mapped}}) {
-        const osg::ref_ptr<osg::Sequence> sequence = new osg::Sequence;
-        for (const Mesh& mesh : shapes()) sequence->addChild(node(mesh));
-        Scene scene = groundWith(sequence, technique);
-        Camera camera(scene.root, onGround);
-        for (int step = 0; step < 8; ++step) {
-            const int shown = step % 4;
-            sequence->setValue(shown);
-            const Picture expected = render(groundWith(node(shapes()[std::size_t(shown)]), technique).root, onGround);
-            // texels of maps that are kept lie elsewhere
-            EXPECT_LE(camera.frame().different(expected), name == std::string("map") ? 30 : 0) << name << step;
-        }
-    }
-}
-
-TEST(PagedLevels, ASwitchCastsTheChildrenThatAreOn) {
-    for (const auto& [name, technique] : {std::pair("traced", traced), {"map", mapped}}) {
-        const osg::ref_ptr<osg::Switch> choice = new osg::Switch;
-        for (const Mesh& mesh : shapes()) choice->addChild(node(mesh), false);
-        Scene scene = groundWith(choice, technique);
-        Camera camera(scene.root, onGround);
-        for (const auto& on : {std::set{0}, {1, 3}, {2}, {}, {0, 3}}) {
-            const osg::ref_ptr<osg::Group> plain = new osg::Group;
-            for (int i = 0; i < 4; ++i) {
-                choice->setValue(unsigned(i), on.count(i) > 0);
-                if (on.count(i)) plain->addChild(node(shapes()[std::size_t(i)]));
-            }
-            const Picture expected = render(groundWith(plain, technique).root, onGround);
-            EXPECT_LE(camera.frame().different(expected), name == std::string("map") ? 30 : 0) << name << on.size();
-        }
-    }
 }
 
 /// It changes its level on the way.

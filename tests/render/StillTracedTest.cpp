@@ -5,9 +5,7 @@
 
 #include <gnomon/TracedShadowTechnique.h>
 #include <gtest/gtest.h>
-#include <osg/Geometry>
 #include <osg/MatrixTransform>
-#include <osg/observer_ptr>
 
 using gnomon::TracedShadowTechnique;
 using test::Picture;
@@ -49,18 +47,6 @@ TEST(StillTraced, AFrameInWhichNothingChangesCastsNoRay) {
     for (int i = 0; i < 3; ++i) EXPECT_EQ(camera.frame().different(first), 0);
     EXPECT_EQ(tracedPixels(*yard.technique), traced);
     EXPECT_GT(first.count(test::shadowedGround), 100);
-}
-
-TEST(StillTraced, CastersThatAreGoneAreLetGoWhereNoneIsLeft) {
-    Yard yard;
-    osg::Node* caster = test::find(*yard.scene.root, "caster");
-    const osg::observer_ptr<osg::Array> vertices = caster->asGeode()->getDrawable(0)->asGeometry()->getVertexArray();
-    yard.scene.group->setCasters({caster});
-    test::Camera camera(yard.scene.root, fromTheSide());
-    EXPECT_GT(camera.frame().count(test::shadowedGround), 100);
-    yard.scene.content->removeChild(caster);
-    for (int i = 0; i < 300; ++i) camera.viewer().frame();
-    EXPECT_FALSE(vertices.valid());
 }
 
 TEST(StillTraced, LightCameraAndCompositeAreFollowed) {

@@ -252,24 +252,6 @@ TEST(VolumeCompany, SeveralSamplesSmoothItsEdges) {
     EXPECT_GT(one, 0.01) << "there are edges";
 }
 
-TEST(VolumeCompany, BlendDarkensWhatRelightDoes) {
-    const TracedCase all = given({1.0, 0.4, 1.2, 0.0});
-    const CaseTrial relit = drawVolume(all);
-    Scene blended = all.build();
-    blended.addShadow(new ShadowVolumeTechnique);
-    blended.group->setComposite(gnomon::ShadowCasterGroup::BLEND);
-    const Picture blend = render(blended.root, view);
-    int onlyRelit = 0, onlyBlended = 0;
-    for (std::size_t i = 0; i < blend.pixels.size(); ++i) {
-        const bool a = relit.cast.pixels[i] != relit.lit.pixels[i], b = blend.pixels[i] != relit.lit.pixels[i];
-        onlyRelit += a && !b;
-        onlyBlended += b && !a && relit.lit.pixels[i] != relit.dark.pixels[i];
-    }
-    EXPECT_EQ(onlyRelit, 0);
-    EXPECT_EQ(onlyBlended, 0) << "where the light arrives at all";
-    EXPECT_GT(blend.different(relit.lit), 500);
-}
-
 Scene underThree(const std::vector<osg::ref_ptr<gnomon::ShadowTechnique>>& techniques) {
     Scene scene = given({1.0, 0.4, 1.2, 0.0}).build();
     scene.light->getLight()->setDiffuse({0.3f, 0.2f, 0.1f, 1.0f});
