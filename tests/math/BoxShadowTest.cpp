@@ -21,7 +21,7 @@ using test::sunAt;
 namespace {
 
 HeightPyramid levelGround() {
-    return HeightPyramid({41, 41, {0.0, 0.0}, {10.0, 10.0}, std::vector<float>(41 * 41, 3.0f)});
+    return HeightPyramid({{41, 41, {0.0, 0.0}, {10.0, 10.0}}, std::vector<float>(41 * 41, 3.0f)});
 }
 
 /// It goes down as far as there is ground.
@@ -163,7 +163,7 @@ TEST(BoxShadow, KnowsThatTheGroundBendsItsOutline) {
         std::vector<float> heights;
         for (int y = 0; y < 41; ++y)
             for (int x = 0; x < 41; ++x) heights.push_back(float(heightAt(10.0 * x, 10.0 * y)));
-        const HeightPyramid ground({41, 41, {0.0, 0.0}, {10.0, 10.0}, std::move(heights)});
+        const HeightPyramid ground({{41, 41, {0.0, 0.0}, {10.0, 10.0}}, std::move(heights)});
         return gnomon::isBoxOutline(ground, boxOf(house().corners(), house()), sun(30.0));
     };
     EXPECT_TRUE(isOutline([](double x, double y) { return 3.0 + 0.1 * (x - 200.0) - 0.05 * (y - 200.0); }));

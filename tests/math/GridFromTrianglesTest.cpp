@@ -30,7 +30,7 @@ HeightField mixed(const glm::dvec2& origin) {
     std::vector<CellCut> cuts;
     for (int i = 0; i < (columns - 1) * (rows - 1); ++i)
         cuts.push_back(CellCut(std::min(2, int(random.between(0.0, 2.1)))));
-    return {columns, rows, origin, step, heights, 500.0, cuts};
+    return {{columns, rows, origin, step, 500.0}, heights, cuts};
 }
 
 std::optional<HeightField> gridIn(std::vector<GroundTriangle> triangles, double tolerance = 1e-6) {
@@ -40,7 +40,7 @@ std::optional<HeightField> gridIn(std::vector<GroundTriangle> triangles, double 
 }
 
 /// 3 × 3 posts 1 apart, level.
-std::vector<GroundTriangle> small() { return test::trianglesOf({3, 3, {}, {1.0, 1.0}, std::vector<float>(9, 0.0f)}); }
+std::vector<GroundTriangle> small() { return test::trianglesOf({{3, 3, {}, {1.0, 1.0}}, std::vector<float>(9, 0.0f)}); }
 
 } // namespace
 
@@ -159,9 +159,9 @@ TEST(TriangleGrid, IsNoneWithAVertexThatIsNotFinite) {
 }
 
 TEST(HeightField, NeedsACutForEachCellOrNone) {
-    EXPECT_THROW(HeightField(2, 3, {}, {1.0, 1.0}, std::vector<float>(6), 0.0, std::vector<CellCut>(3)),
+    EXPECT_THROW(HeightField({2, 3, {}, {1.0, 1.0}}, std::vector<float>(6), std::vector<CellCut>(3)),
                  std::invalid_argument);
-    const HeightField falling(2, 2, {}, {1.0, 1.0}, {0, 4, 0, 8}, 0.0, {CellCut::falling});
+    const HeightField falling({2, 2, {}, {1.0, 1.0}}, {0, 4, 0, 8}, {CellCut::falling});
     EXPECT_DOUBLE_EQ(*falling.height(0.5, 0.5), 2.0) << "amid 4 and 0, not 0 and 8";
     EXPECT_DOUBLE_EQ(*falling.height(0.25, 0.5), 1.0);
     EXPECT_DOUBLE_EQ(*falling.height(0.75, 0.5), 4.0) << "half way from (0.5, 0.5) with 2 to (1, 0.5) with 6";

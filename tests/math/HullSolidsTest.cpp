@@ -32,7 +32,7 @@ constexpr int posts = 160;
 double cliff(double x, double) { return x < 600.0 ? 20.0 : 0.0; }
 
 HeightPyramid level(double side = 1600.0, const glm::dvec2& origin = glm::dvec2(0.0)) {
-    return HeightPyramid({2, 2, origin, glm::dvec2(side), std::vector<float>(4, 3.0f)});
+    return HeightPyramid({{2, 2, origin, glm::dvec2(side)}, std::vector<float>(4, 3.0f)});
 }
 
 glm::dvec4 sun(double azimuth, double elevation) { return glm::dvec4(sunAt(azimuth, elevation), 0.0); }
@@ -180,7 +180,7 @@ TEST(HullSolids, OfAWallThatBridgesAValleyAreNotTakenForBuried) {
 }
 
 TEST(HullSolids, WithoutGroundOrOfALightThatIsBelowOrNowhereThereIsNone) {
-    const HeightPyramid holes({2, 2, {0.0, 0.0}, {9.0, 9.0}, std::vector<float>(4, std::nanf(""))}), ground = level();
+    const HeightPyramid holes({{2, 2, {0.0, 0.0}, {9.0, 9.0}}, std::vector<float>(4, std::nanf(""))}), ground = level();
     const gnomon::TriangleGround nothing({}, {}), one({{0.0, 0.0, 1.0}, {60.0, 0.0, 4.0}, {0.0, 60.0, 2.0}}, {0, 1, 2});
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const struct {

@@ -112,7 +112,7 @@ TEST(MapOutline, CutToAnotherIsWhatBothHold) {
     const LightFrame frame = sunFrame({0.0, 0.0, 1.0});
     MapOutline outline = outlineOf(frame, {0.0, 0.0, 0.0}, {4.0, 4.0, 1.0});
     outline.cut(outlineOf(frame, {3.0, 1.0, 0.0}, {9.0, 2.0, 9.0}));
-    EXPECT_NEAR(fitMap(frame, outline, outline, 0.0, 0.0, 1.0).area(), 1.0, 1e-12); // x 3 … 4, y 1 … 2
+    EXPECT_NEAR(fitMap(frame, outline, outline, {0.0, 0.0, 1.0}).area(), 1.0, 1e-12); // x 3 … 4, y 1 … 2
     outline.cut(outlineOf(frame, {5.0, 5.0, 0.0}, {6.0, 6.0, 1.0}));
     EXPECT_TRUE(outline.empty());
 }
@@ -128,8 +128,8 @@ TEST(MapOutline, HasSidesAndABodyAboutWhatIsInIt) {
         for (const glm::dvec4& p : outline.body()) again.addBox({glm::dvec3(p) / p.w, glm::dvec3(p) / p.w});
         EXPECT_NEAR(again.nearest, outline.nearest, 1e-12);
         EXPECT_NEAR(again.farthest, outline.farthest, 1e-12);
-        EXPECT_NEAR(fitMap(frame, again, again, 0.0, 0.0, 1.0).area(),
-                    fitMap(frame, outline, outline, 0.0, 0.0, 1.0).area(), 1e-9);
+        EXPECT_NEAR(fitMap(frame, again, again, {0.0, 0.0, 1.0}).area(),
+                    fitMap(frame, outline, outline, {0.0, 0.0, 1.0}).area(), 1e-9);
     }
 }
 
@@ -186,7 +186,7 @@ TEST(MapSpread, IsThatOfSimilarTriangles) {
     const int texels = 1024;
     const LightFrame sun = sunFrame({0.0, 0.0, 1.0});
     const MapOutline below = outlineOf(sun, {-4.0, -2.0, 0.0}, {4.0, 2.0, 10.0});
-    const MapFit fit = fitMap(sun, below, below, 0.0, 0.0, 1.0);
+    const MapFit fit = fitMap(sun, below, below, {0.0, 0.0, 1.0});
     const double height = 3.0, tangent = 0.02, radius = 0.25;
     const MapSpread ofSun = mapSpread(sun, fit, tangent, radius, texels);
     for (int axis = 0; axis < 2; ++axis) {
@@ -197,7 +197,7 @@ TEST(MapSpread, IsThatOfSimilarTriangles) {
     }
     const LightFrame lamp = lampFrame({0.0, 0.0, 12.0}, {0.0, 0.0, -1.0}, 1.0);
     const MapOutline seen = outlineOf(lamp, {-2.0, -1.0, 0.0}, {2.0, 1.0, 8.0});
-    const MapFit lampFit = fitMap(lamp, seen, seen, 0.0, 0.0, 1.0);
+    const MapFit lampFit = fitMap(lamp, seen, seen, {0.0, 0.0, 1.0});
     const double edge = 5.0, surface = 11.0, half = 0.3; // distances along the axis
     const MapSpread ofLamp = mapSpread(lamp, lampFit, half, radius, texels);
     const double between = (1.0 / edge - 1.0 / surface) / (lampFit.farthest - lampFit.nearest); // of the map's depth
@@ -213,18 +213,18 @@ TEST(FitMap, TurnsWithWhatItCoversKeepsAReserveWithinWhatCastsAndLeavesAMargin) 
     const LightFrame frame = sunFrame({0.0, 0.0, 1.0});
     const MapOutline slanted =
         outlineOf(frame, {-3.0, -1.0, 0.0}, {3.0, 1.0, 1.0}, glm::rotate(here, 0.5, glm::dvec3(0.0, 0.0, 1.0)));
-    EXPECT_NEAR(fitMap(frame, slanted, slanted, 0.0, 0.0, 1.0).area(), 12.0, 1e-9);
+    EXPECT_NEAR(fitMap(frame, slanted, slanted, {0.0, 0.0, 1.0}).area(), 12.0, 1e-9);
     const MapOutline needed = outlineOf(frame, {0.0, 0.0, 0.0}, {8.0, 8.0, 1.0});
     const MapOutline wide = outlineOf(frame, {-9.0, -9.0, 0.0}, {8.5, 8.5, 1.0});
-    EXPECT_NEAR(fitMap(frame, needed, wide, 0.125, 0.0, 1.0).area(), 9.5 * 9.5,
+    EXPECT_NEAR(fitMap(frame, needed, wide, {0.125, 0.0, 1.0}).area(), 9.5 * 9.5,
                 1e-9); // 8 and one more on each side, or half
-    EXPECT_NEAR(fitMap(frame, needed, needed, 0.125, 0.1, 1.0).area(), 100.0, 1e-9); // 8 is 80 % of the side
+    EXPECT_NEAR(fitMap(frame, needed, needed, {0.125, 0.1, 1.0}).area(), 100.0, 1e-9); // 8 is 80 % of the side
 }
 
 TEST(MapFit, CoversWhatItWasMadeForAndNothingThatSticksOut) {
     const LightFrame frame = sunFrame(glm::normalize(glm::dvec3(1.0, 0.5, 1.0)));
     const MapOutline needed = outlineOf(frame, {0.0, 0.0, 0.0}, {8.0, 8.0, 1.0});
-    const MapFit fit = fitMap(frame, needed, needed, 0.0, 0.01, 1.0);
+    const MapFit fit = fitMap(frame, needed, needed, {0.0, 0.01, 1.0});
     EXPECT_TRUE(fit.covers(needed, 0.009));
     EXPECT_FALSE(fit.covers(outlineOf(frame, {-0.5, 0.0, 0.0}, {8.0, 8.0, 1.0}), 0.0));
     EXPECT_FALSE(fit.covers(outlineOf(frame, {0.0, 0.0, -40.0}, {8.0, 8.0, 1.0}), 0.0));
@@ -232,7 +232,7 @@ TEST(MapFit, CoversWhatItWasMadeForAndNothingThatSticksOut) {
     const auto between = [&noon](double low, double high) {
         return outlineOf(noon, {0.0, 0.0, low}, {8.0, 8.0, high});
     };
-    const MapFit level = fitMap(noon, between(0.0, 1.0), between(0.0, 1.0), 0.0, 0.01, 0.0);
+    const MapFit level = fitMap(noon, between(0.0, 1.0), between(0.0, 1.0), {0.0, 0.01, 0.0});
     for (const auto& [low, high] : {std::pair(-1.0, 1.0), {0.0, 2.0}})
         EXPECT_FALSE(level.covers(between(low, high), 0.0)) << low; // an eighth of 1 is to spare
     EXPECT_TRUE(level.covers(between(-0.1, 1.1), 0.0));
@@ -251,7 +251,7 @@ TEST(MapFit, HoldsEveryPointOfABoxThatIsInView) {
         MapOutline outline(frame);
         outline.addBox({glm::dvec3(-1.0), glm::dvec3(1.0)}, {view});
         if (outline.empty()) continue;
-        const MapFit fit = fitMap(frame, outline, outline, 0.0, 0.001, 1e-3);
+        const MapFit fit = fitMap(frame, outline, outline, {0.0, 0.001, 1e-3});
         for (int i = 0; i < 100; ++i) {
             const glm::dvec4 p(point(), 1.0);
             bool seen = glm::dot(view, p) >= 0.0;
@@ -270,7 +270,7 @@ TEST(MapErrors, GrowWithTheTexelAndOfALampTowardsIt) {
     const LightFrame sun = sunFrame({0.0, 0.0, 1.0}), lamp = lampFrame({0.0, 0.0, 5.0}, {0.0, 0.0, -1.0}, 1.0);
     const auto errors = [&](const LightFrame& frame, int texels) {
         const MapOutline outline = outlineOf(frame, -reach, reach);
-        return mapErrors(frame, fitMap(frame, outline, outline, 0.0, 0.0, 0.1), reach, texels);
+        return mapErrors(frame, fitMap(frame, outline, outline, {0.0, 0.0, 0.1}), reach, texels);
     };
     EXPECT_EQ(errors(sun, 512).nearest.steepest, 2.0 * errors(sun, 1024).farthest.steepest);
     EXPECT_GT(errors(lamp, 512).nearest.steepest, errors(lamp, 512).farthest.steepest);

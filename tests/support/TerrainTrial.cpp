@@ -121,7 +121,7 @@ gnomon::HeightPyramid groundOf(const std::function<double(double, double)>& heig
     std::vector<float> heights;
     for (int j = 0; j < posts; ++j)
         for (int i = 0; i < posts; ++i) heights.push_back(static_cast<float>(height(i * pitch, j * pitch)));
-    return gnomon::HeightPyramid({posts, posts, corner, {pitch, pitch}, heights, base});
+    return gnomon::HeightPyramid({{posts, posts, corner, {pitch, pitch}, base}, heights});
 }
 
 int over(const gnomon::BoxTriangles& drape, const glm::dvec2& place) {

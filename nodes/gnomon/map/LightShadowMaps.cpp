@@ -151,8 +151,8 @@ MapFit LightShadowMaps::fitOf(const Face& face) const {
         most.merge(face.held);
         most.grow(reserve * face.held.length());
     }
-    return fitMap(face.side->frame, face.held, most, reserve, keptClear / _texels,
-                  glm::length(_faces.reachOf(face)) / 64.0);
+    const double thick = glm::length(_faces.reachOf(face)) / 64.0;
+    return fitMap(face.side->frame, face.held, most, {reserve, keptClear / _texels, thick});
 }
 
 /// Where nothing changes any more, as in a light's first picture: all faces, for where only those turned to the light are drawn,

@@ -64,7 +64,7 @@ glm::dvec4 beyond(const MapBox& flat, const glm::dvec4& light, const glm::dvec3&
 
 /// True of what the light sees edge-on, and of triangles of no area: hard edges have nothing between them.
 bool isThin(const LightFrame& frame, const MapOutline& outline) {
-    const glm::dvec2 size = fitMap(frame, outline, outline, 0.0, 0.0, 1.0).size;
+    const glm::dvec2 size = fitMap(frame, outline, outline, {0.0, 0.0, 1.0}).size;
     return std::min(size.x, size.y) <= 2e-6 * std::max(size.x, size.y); // fitMap() makes no side less than half of that
 }
 
@@ -202,7 +202,7 @@ double MapFaces::pixelsATexel(double distance) const {
     };
     MapOutline all(_sides.front().frame);
     for (const Blocker& blocker : _sides.front().blockers) all.merge(blocker.outline);
-    const double most = fitMap(_sides.front().frame, all, all, 0.0, 0.0, 1.0).longer();
+    const double most = fitMap(_sides.front().frame, all, all, {0.0, 0.0, 1.0}).longer();
     const double covered = std::min(most, std::max({side(0), side(1), distance}));
     return covered / _request.settings.size / (side(0) / _seen.pixels.x);
 }

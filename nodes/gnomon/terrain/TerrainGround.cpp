@@ -84,7 +84,7 @@ std::optional<HeightField> OsgHeightField::grid() const {
     if (!std::isfinite(step.x + step.y + origin.x() + origin.y() + origin.z())) return std::nullopt;
     std::vector<float> scaled = heights;
     for (float& height : scaled) height = static_cast<float>(double(height) * m(2, 2));
-    return HeightField(columns, rows, {origin.x(), origin.y()}, step, std::move(scaled), origin.z());
+    return HeightField({columns, rows, {origin.x(), origin.y()}, step, origin.z()}, std::move(scaled));
 }
 
 bool OsgHeightField::isHole(int column, int row) const {

@@ -12,21 +12,16 @@
 
 namespace gnomon {
 
-HeightField::HeightField(int columns, int rows, const glm::dvec2& origin, const glm::dvec2& step,
-                         std::vector<float> heights, double base, std::vector<CellCut> cuts)
-    : _columns(columns),
-      _rows(rows),
-      _origin(origin),
-      _step(step),
-      _heights(std::move(heights)),
-      _base(base),
-      _cuts(std::move(cuts)) {
-    if (columns < 2 || rows < 2) throw std::invalid_argument("a height field needs at least 2 posts along each side.");
-    if (_heights.size() != std::size_t(columns) * std::size_t(rows))
+HeightField::HeightField(const GridPosts& posts, std::vector<float> heights, std::vector<CellCut> cuts)
+    : _posts(posts), _heights(std::move(heights)), _cuts(std::move(cuts)) {
+    if (columns() < 2 || rows() < 2)
+        throw std::invalid_argument("a height field needs at least 2 posts along each side.");
+    if (_heights.size() != std::size_t(columns()) * std::size_t(rows()))
         throw std::invalid_argument("a height field needs one height for each post.");
-    if (!_cuts.empty() && _cuts.size() != std::size_t(columns - 1) * std::size_t(rows - 1))
+    if (!_cuts.empty() && _cuts.size() != std::size_t(columns() - 1) * std::size_t(rows() - 1))
         throw std::invalid_argument("a height field needs one cut for each cell, or none at all.");
-    if (!(step.x > 0.0) || !(step.y > 0.0) || !std::isfinite(step.x + step.y + origin.x + origin.y + base))
+    const glm::dvec2 ends = origin() + step();
+    if (!(step().x > 0.0) || !(step().y > 0.0) || !std::isfinite(ends.x + ends.y + posts.base))
         throw std::invalid_argument("a height field needs a finite step above 0 and a finite origin.");
 }
 
@@ -51,8 +46,8 @@ std::array<double, 2> HeightField::planesOver(int x, int y, double u, double v) 
 
 std::optional<double> HeightField::height(double x, double y) const {
     const glm::dvec2 at = cellOf(x, y);
-    if (!(at.x >= 0.0 && at.y >= 0.0 && at.x <= _columns - 1 && at.y <= _rows - 1)) return std::nullopt;
-    const int i = std::min(static_cast<int>(at.x), _columns - 2), j = std::min(static_cast<int>(at.y), _rows - 2);
+    if (!(at.x >= 0.0 && at.y >= 0.0 && at.x <= columns() - 1 && at.y <= rows() - 1)) return std::nullopt;
+    const int i = std::min(static_cast<int>(at.x), columns() - 2), j = std::min(static_cast<int>(at.y), rows() - 2);
     if (isHole(i, j)) return std::nullopt;
     const double u = at.x - i, v = at.y - j;
     const auto [lower, upper] = planesOver(i, j, u, v);
@@ -195,7 +190,7 @@ std::optional<HeightField> Gatherer::field() const {
     if (std::all_of(cuts.begin(), cuts.end(), [](CellCut cut) { return cut == CellCut::rising; })) cuts.clear();
     std::vector<float> heights;
     for (const double height : _heights) heights.push_back(static_cast<float>(height - _base));
-    return HeightField(_columns, _rows, _origin, _step, std::move(heights), _base, std::move(cuts));
+    return HeightField({_columns, _rows, _origin, _step, _base}, std::move(heights), std::move(cuts));
 }
 
 /// Of a grid, each triangle that is no wall is half of its bounds, which are a cell.

@@ -15,34 +15,38 @@ enum class CellCut : unsigned char {
     hole
 };
 
+/// Where the posts of a regular grid stand.
+struct GridPosts {
+    int columns, rows;       ///< at least 2 of each.
+    glm::dvec2 origin, step; ///< of the first post and between posts, any unit; step > 0.
+    double base = 0.0;       ///< that heights are about.
+};
+
 /// Ground given by its height on a regular grid, z up. Each cell is two triangles, cut from its lower left to its upper
 /// right corner unless told otherwise; a cell with a height that is not finite at a corner is a hole.
 ///
 /// Cost 4 bytes a post, and one a cell where cuts are given.
 class HeightField {
 public:
-    /// @param columns,rows  posts, at least 2 of each.
-    /// @param origin,step   of the first post and between posts, any unit; step > 0.
-    /// @param heights       row by row, the row of the least y first; about `base`.
-    /// @param cuts          cell by cell as the heights; empty: all are rising.
+    /// @param heights  row by row, the row of the least y first.
+    /// @param cuts     cell by cell as the heights; empty: all are rising.
     /// @throws std::invalid_argument, one sentence, if the numbers do not fit.
-    HeightField(int columns, int rows, const glm::dvec2& origin, const glm::dvec2& step, std::vector<float> heights,
-                double base = 0.0, std::vector<CellCut> cuts = {});
+    HeightField(const GridPosts& posts, std::vector<float> heights, std::vector<CellCut> cuts = {});
 
-    int columns() const { return _columns; }
-    int rows() const { return _rows; }
+    int columns() const { return _posts.columns; }
+    int rows() const { return _posts.rows; }
     /// Cell, or post, below and to the left of a place; may be beside the grid.
-    glm::dvec2 cellOf(double x, double y) const { return (glm::dvec2(x, y) - _origin) / _step; }
+    glm::dvec2 cellOf(double x, double y) const { return (glm::dvec2(x, y) - _posts.origin) / _posts.step; }
     bool isHole(int x, int y) const; ///< of a cell.
     /// As given: a rising or falling cell may still be a hole by its heights.
     CellCut cut(int x, int y) const {
-        return _cuts.empty() ? CellCut::rising : _cuts[std::size_t(y) * std::size_t(_columns - 1) + std::size_t(x)];
+        return _cuts.empty() ? CellCut::rising : _cuts[std::size_t(y) * std::size_t(columns() - 1) + std::size_t(x)];
     }
-    const glm::dvec2& origin() const { return _origin; }
-    const glm::dvec2& step() const { return _step; }
+    const glm::dvec2& origin() const { return _posts.origin; }
+    const glm::dvec2& step() const { return _posts.step; }
     glm::dvec3 post(int x, int y) const {
-        const float height = _heights[std::size_t(y) * std::size_t(_columns) + std::size_t(x)];
-        return {_origin.x + x * _step.x, _origin.y + y * _step.y, _base + double(height)};
+        const float height = _heights[std::size_t(y) * std::size_t(columns()) + std::size_t(x)];
+        return {origin().x + x * step().x, origin().y + y * step().y, _posts.base + double(height)};
     }
     /// The two triangles of a cell.
     std::array<GroundTriangle, 2> triangles(int x, int y) const;
@@ -52,10 +56,8 @@ public:
     std::optional<double> height(double x, double y) const;
 
 private:
-    int _columns, _rows;
-    glm::dvec2 _origin, _step;
+    GridPosts _posts;
     std::vector<float> _heights;
-    double _base;
     std::vector<CellCut> _cuts;
 };
 

@@ -276,19 +276,19 @@ bool MapFit::covers(const MapOutline& outline, double margin) const {
            std::all_of(outline.corners.begin(), outline.corners.end(), inside);
 }
 
-MapFit fitMap(const LightFrame& frame, const MapOutline& outline, const MapOutline& most, double reserve, double margin,
-              double thick) {
+MapFit fitMap(const LightFrame& frame, const MapOutline& outline, const MapOutline& most, const MapRoom& room) {
     Rectangle rectangle = smallestAbout(convexHull2D(outline.corners));
     const Rectangle limit = rectangleAlong(rectangle.along, most.corners);
-    const glm::dvec2 around = reserve * (rectangle.high - rectangle.low);
+    const glm::dvec2 around = room.reserve * (rectangle.high - rectangle.low);
     rectangle.low = glm::min(rectangle.low, glm::max(rectangle.low - around, limit.low));
     rectangle.high = glm::max(rectangle.high, glm::min(rectangle.high + around, limit.high));
     widen(rectangle);
-    const glm::dvec2 border = margin / (1.0 - 2.0 * margin) * (rectangle.high - rectangle.low);
+    const glm::dvec2 border = room.margin / (1.0 - 2.0 * room.margin) * (rectangle.high - rectangle.low);
     rectangle.low -= border;
     rectangle.high += border;
     MapFit fit;
-    const double least = frame.isParallel ? thick : thick * outline.farthest * outline.farthest; // d(-1/w) is dw/w²
+    const double least =
+        room.thick * (frame.isParallel ? 1.0 : outline.farthest * outline.farthest); // d(-1/w) is dw/w²
     const double more = 0.125 * std::max(outline.farthest - outline.nearest, 4.0 * least);
     fit.nearest = outline.nearest - more;
     fit.farthest = frame.isParallel ? outline.farthest + more : std::min(0.0, outline.farthest + more);

@@ -109,15 +109,18 @@ struct MapFit {
     double longer() const { return std::max(size.x, size.y); }
 };
 
+/// How much larger than what it must hold a map is.
+struct MapRoom {
+    double reserve; ///< share of the sides by which it is larger on each, so that it holds for a while.
+    double margin;  ///< share of its own sides that is left on each.
+    double thick;   ///< the least range of depths, scene's unit, where it is farthest: nothing gets finer with less.
+};
+
 /// The smallest rectangle about an outline that is not empty, and more.
-/// @param most     the rectangle reaches no further than this outline: what lies outside is known to be lit.
-/// @param reserve  share of the sides by which it is larger on each, so that it holds for a while.
-/// @param margin   share of its own sides that is left on each.
-/// @param thick    the least range of depths, scene's unit, where it is farthest: nothing gets finer with less.
+/// @param most  the rectangle reaches no further than this outline: what lies outside is known to be lit.
 /// Source: H. Freeman and R. Shapira, "Determining the Minimum-Area Encasing Rectangle for an Arbitrary Closed Curve",
 ///         CACM 18(7), 1975: a side of it lies along an edge of the hull.
-MapFit fitMap(const LightFrame& frame, const MapOutline& outline, const MapOutline& most, double reserve, double margin,
-              double thick);
+MapFit fitMap(const LightFrame& frame, const MapOutline& outline, const MapOutline& most, const MapRoom& room);
 
 /// How far from a place of an outline, in x/w and y/w, what softens an edge there can be.
 /// @param nearest, farthest  depths between which shadows are cast, see MapOutline.
