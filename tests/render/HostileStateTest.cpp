@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // State and views that would lead the compositor's own drawing astray.
+#include "IntoTexture.h"
+
 #include <support/Causes.h>
 #include <support/DiscShadow.h>
 #include <support/GlDebug.h>
@@ -65,6 +67,26 @@ struct DepthClear : public osg::Drawable {
     DepthClear(const DepthClear& other, const osg::CopyOp& copyOp) : osg::Drawable(other, copyOp) {}
     META_Object(test, DepthClear)
     void drawImplementation(osg::RenderInfo&) const override { glClear(GL_DEPTH_BUFFER_BIT); }
+};
+
+/// Code of an application's own that lets OpenGL scale and shift depths wherever pixels are copied or read.
+struct DepthTransfer : public osg::Drawable {
+    DepthTransfer() = default;
+    DepthTransfer(float newScale, float newBias) : scale(newScale), bias(newBias) {
+        setSupportsDisplayList(false);
+        setCullingActive(false);
+    }
+    DepthTransfer(const DepthTransfer& other, const osg::CopyOp& copyOp)
+        : osg::Drawable(other, copyOp), scale(other.scale), bias(other.bias) {}
+    META_Object(test, DepthTransfer)
+    void drawImplementation(osg::RenderInfo&) const override {
+        glGetFloatv(GL_DEPTH_SCALE, &foundScale);
+        glGetFloatv(GL_DEPTH_BIAS, &foundBias);
+        glPixelTransferf(GL_DEPTH_SCALE, scale);
+        glPixelTransferf(GL_DEPTH_BIAS, bias);
+    }
+    const float scale = 1.0f, bias = 0.0f;
+    mutable float foundScale = 0.0f, foundBias = 0.0f; ///< as the frame before has left them.
 };
 
 int changed(const Picture& a, const Picture& b) { return a.different(b); }
@@ -187,6 +209,31 @@ TEST(HostileState, DepthsThatAnEarlyBinClearsLeaveTheShadowsOfWhatIsDrawnBeforeA
             EXPECT_GT(changed(usual, lit), 500) << spec;
             // Maps are fitted to what receives before, and to what after: their texels lie elsewhere.
             EXPECT_LE(changed(picture(who, spec), usual), spec == "map" ? 40 : 0) << spec;
+        }
+    }
+}
+
+// OpenGL applies both to depths that are copied into a texture, as those of framebuffer objects are, and to those that are read.
+// The flat shadow of a box on a plane, which needs no depths, says where it must be.
+TEST(HostileState, AScaleAndABiasOfCopiedDepthsMoveNoShadowAndStandAfterwards) {
+    for (const Target& target : {withDepth(depth24), fourSamples()}) {
+        Scene flat = boxScene();
+        flat.addShadow("planar");
+        const Picture expected = IntoTexture(flat.root, view, target).camera->frame();
+        for (const std::string spec : {"map", "traced"}) {
+            Scene scene = boxScene();
+            const osg::ref_ptr<DepthTransfer> transfer = new DepthTransfer(0.5f, 0.25f);
+            const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
+            geode->addDrawable(transfer);
+            geode->setCullingActive(false);
+            geode->getOrCreateStateSet()->setRenderBinDetails(-1, "RenderBin");
+            scene.root->addChild(geode);
+            scene.addShadow(spec);
+            IntoTexture into(scene.root, view, target);
+            into.camera->frame();
+            EXPECT_LE(changed(into.camera->frame(), expected), 150) << spec << target.samples; // along its edges
+            EXPECT_EQ(transfer->foundScale, 0.5f) << spec << target.samples;
+            EXPECT_EQ(transfer->foundBias, 0.25f) << spec << target.samples;
         }
     }
 }

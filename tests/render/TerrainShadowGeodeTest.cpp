@@ -10,6 +10,7 @@
 #include <osg/Geometry>
 #include <osg/LOD>
 #include <osg/MatrixTransform>
+#include <osg/PolygonOffset>
 #include <osg/Shape>
 #include <osg/ShapeDrawable>
 #include <osg/Stencil>
@@ -243,6 +244,23 @@ TEST(TerrainShadowGeode, FallsOnAllStoreys) {
                   30 * 20)
             << reserved;
     }
+}
+
+// Solids end a twentieth of a shadow's size below the ground, and half of it where what is drawn may lie deeper.
+TEST(TerrainShadowGeode, ReachesAGroundThatIsPushedBackBetweenTwoFrames) {
+    Scene scene = test::groundScene({test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 3.0})}, 20.0, sun);
+    const test::Picture plain = test::render(scene.root, above);
+    osg::Node* ground = test::find(*scene.root, "ground");
+    scene.addShadow(shadowOn(ground, TerrainShadowGeode::HULL));
+    test::Camera camera(scene.root, above);
+    EXPECT_EQ(darkened(camera.frame(), plain), 30 * 20) << "3 by 2 are seen beside the house";
+    // As far as a unit, or two, for a driver's step may be two of the depth buffer's, as llvmpipe's is.
+    const float steps = float(1 << 24) / 99.0f; // of a view from 1 to 100
+    ground->getOrCreateStateSet()->setAttributeAndModes(new osg::PolygonOffset(0.0f, steps));
+    const int deeper = darkened(camera.frame(), plain);
+    EXPECT_TRUE(deeper == 40 * 20 || deeper == 50 * 20) << deeper << ": so much lower it is as much longer";
+    ground->getStateSet()->removeAttribute(osg::StateAttribute::POLYGONOFFSET);
+    EXPECT_EQ(darkened(camera.frame(), plain), 30 * 20);
 }
 
 /// A deck 0.8 over the ground, beside a box 2 high in a sun of 45 degrees: the shadow ends at x = -3 on the ground, on the deck
