@@ -29,7 +29,7 @@ float arrivesAt(vec3 place) {
 class BlobMark : public gnomon::Mark {
 public:
     Kind kind() const override { return Kind::Fades; }
-    bool canDarken() const override { return true; } // a MarkProgram can
+    BlobMark() { canDarken = true; } // a MarkProgram can
     std::string draw(gnomon::ScreenPass& pass) const override { return program->draw(pass, clipFromScene, *uniforms); }
 
     osg::ref_ptr<const gnomon::MarkProgram> program;

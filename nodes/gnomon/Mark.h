@@ -25,6 +25,15 @@ public:
     /// Where marks can fall; everything the compositor does is cut to it.
     ScreenRect screenBounds = wholeScreen;
 
+    /// True if it can draw ScreenPass::Want::Factor, as a MarkProgram can.
+    bool canDarken = false;
+    /// True of what relighting alone must darken: what OpenGL has drawn without the light, as far as it could.
+    bool relightsOnly = false;
+    /// True if drawDebugView() draws anything.
+    bool hasDebugView = false;
+    /// How many steps of the depth buffer a surface may be off its place for its marks; 0: however many.
+    double depthSteps = 1.0;
+
     /// What its fragments say of the pixels that they cover.
     enum class Kind {
         Hard,  ///< None of the light arrives. They may lie over each other.
@@ -40,20 +49,11 @@ public:
     /// @return why nothing could be drawn, as a cause for ShadowTechnique::report(); empty if all is well.
     virtual std::string draw(ScreenPass& pass) const = 0;
 
-    /// True if it can draw ScreenPass::Want::Factor, as a MarkProgram can.
-    virtual bool canDarken() const { return false; }
-
-    /// How many steps of the depth buffer a surface may be off its place for its marks; 0: however many.
-    virtual double depthSteps() const { return 1.0; }
-
-    /// True of what relighting alone must darken: what OpenGL has drawn without the light, as far as it could.
-    virtual bool relightsOnly() const { return false; }
-
-    /// True if drawView() draws anything.
-    virtual bool hasView() const { return false; }
     /// Draws over the finished picture how its marks come about.
     /// @param before  how many other marks of the view have done so.
-    virtual void drawView(ScreenPass& pass, int before) const { static_cast<void>(pass), static_cast<void>(before); }
+    virtual void drawDebugView(ScreenPass& pass, int before) const {
+        static_cast<void>(pass), static_cast<void>(before);
+    }
 
     /// False if it is known that no mark falls on this leaf, as a cause of diagnose() should be about what receives.
     virtual bool canReach(const osgUtil::RenderLeaf&) const { return true; }

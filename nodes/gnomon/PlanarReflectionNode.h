@@ -2,7 +2,7 @@
 #pragma once
 #include <gnomon/EffectNode.h>
 #include <gnomon/NamesNodes.h>
-#include <gnomon/NodeReference.h>
+#include <gnomon/ObservedNode.h>
 
 #include <osg/Vec3f>
 #include <osg/Vec4d>
@@ -104,7 +104,7 @@ protected:
 
 private:
     osg::Vec4d _plane{0.0, 0.0, 1.0, 0.0};
-    SelectionReference _surface;
+    ObservedSelection _surface;
     osg::Vec3f _reflectance{0.7f, 0.7f, 0.7f};
     bool _stencilCure = true;
     std::shared_ptr<FrameColorCopy> _saved; ///< a frame that is still drawn keeps it.

@@ -6,11 +6,7 @@
 #include <osg/Vec3>
 #include <osg/Vec4>
 
-#include <glm/vec2.hpp>
-#include <glm/vec4.hpp>
-
 #include <functional>
-#include <vector>
 
 namespace gnomon {
 
@@ -81,18 +77,12 @@ public:
     void countEntered(unsigned bits);
     /// What is drawn next takes one from the number in `bits`, if there is any, wherever it is nearer than what stands there.
     void uncount(unsigned bits);
-    /// Sets the number in `bits`.
-    void setCount(unsigned bits, unsigned value);
     /// Sets `mark` wherever any of `bits` is set and something stands in the depth buffer; and those to 0.
     void takeCount(unsigned bits, unsigned mark);
     /// True if the pixels beside one may be of another picture: the other eye's.
     bool isInterlaced() const;
     /// Depth becomes the farthest.
     void writeFarDepth();
-    /// Writes the depths of triangles where they are nearer than what stands.
-    /// @param corners  three a triangle, in clip space. @param range  see glDepthRange().
-    /// @param offset   see glPolygonOffset().
-    void writeDepths(const std::vector<glm::vec4>& corners, const glm::dvec2& range, const glm::dvec2& offset);
     /// Colour and alpha become this.
     void writeColor(const osg::Vec4& color);
     /// What is drawn next replaces what stands; ends with endMix().
@@ -121,10 +111,6 @@ public:
     /// Passes where what is drawn next compares so with the depth that stands.
     /// @param clamp  what is nearer than the near plane, or beyond the far one, is taken for as far as that; else it is cut off.
     void testDepth(GLenum function, bool clamp = true);
-    /// Passes where the alpha of what is drawn next is less than 1: what a program may say in place of `discard`, which costs
-    /// where shaders run on the processor (llvmpipe skips blocks of which nothing passes, but no block of a program with
-    /// `discard`).
-    void testAlpha();
 
     /// Draws a rectangle over the whole viewport. Depth in normalised device coordinates: z = atCenter + x slopeX + y slopeY.
     void drawQuad(double atCenter = 0.0, double slopeX = 0.0, double slopeY = 0.0);

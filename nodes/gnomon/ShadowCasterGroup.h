@@ -5,7 +5,7 @@
 #include <gnomon/Export.h>
 #include <gnomon/LightUniform.h>
 #include <gnomon/NamesNodes.h>
-#include <gnomon/NodeReference.h>
+#include <gnomon/ObservedNode.h>
 #include <gnomon/Selection.h>
 #include <gnomon/ShadowLight.h>
 
@@ -177,10 +177,10 @@ protected:
     ~ShadowCasterGroup() override;
 
 private:
-    SelectionReference _casters;
+    ObservedSelection _casters;
     Composite _composite = RELIGHT;
     float _dark = 0.5f, _opaqueFrom = 0.5f;
-    std::vector<NodeReference> _lightSources;
+    std::vector<ObservedNode> _lightSources;
     std::vector<ShadowLight> _lights;
     std::vector<LightUniform> _lightUniforms;
     CompositorOptions _options;

@@ -3,7 +3,7 @@
 #include <gnomon/CasterMarkers.h>
 #include <gnomon/Export.h>
 #include <gnomon/NamesNodes.h>
-#include <gnomon/NodeReference.h>
+#include <gnomon/ObservedNode.h>
 #include <gnomon/Selection.h>
 #include <gnomon/ShadowLight.h>
 #include <gnomon/ShadowReport.h>
@@ -143,7 +143,7 @@ protected:
     void enlist(osgUtil::CullVisitor& cull);
 
 private:
-    SelectionReference _receiver;
+    ObservedSelection _receiver;
     const osg::ref_ptr<FrameDiagnosis> _diagnosis;
 };
 

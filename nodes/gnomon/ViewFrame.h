@@ -61,10 +61,11 @@ struct GNOMON_EXPORT ViewFrame {
     osg::Vec2d
         pushedBack; ///< what receives, by polygon offset: in pixels of its slope, and in steps of the depth buffer.
     const ShadowCasterGroup* group = nullptr; ///< Above the technique.
-    CompositorOptions options; ///< of the ShadowCasterGroup; its filter is that of all groups in the view.
-    unsigned frameNumber = 0;  ///< For ShadowTechnique::report().
-    double frameTime = 0.0;    ///< seconds, see timeOf().
-    ViewKey key;               ///< Of this view and these receivers.
+    CompositorOptions
+        options; ///< of the ShadowCasterGroup; it skips what is untouched only if all groups in the view do.
+    unsigned frameNumber = 0;                ///< For ShadowTechnique::report().
+    double frameTime = 0.0;                  ///< seconds, see timeOf().
+    ViewKey key;                             ///< Of this view and these receivers.
     ReceiverKind kind = ReceiverKind::Usual; ///< of `seen`.
     const LeafSet* receivers =
         nullptr; ///< `seen`, where that is not all that the view sees: of a named receiver, displaced or late; else null.

@@ -54,13 +54,13 @@ void UnavailableWarning::objectRead(osgDB::InputStream&, osg::Object& object) {
 }
 
 bool writeOptions(osgDB::OutputStream& out, const CompositorOptions& options) {
-    out << options.reservedStencilBits << options.filter << std::endl;
+    out << options.reservedStencilBits << options.skipsUntouched << std::endl;
     return true;
 }
 
 CompositorOptions readOptions(osgDB::InputStream& in) {
     CompositorOptions options;
-    in >> options.reservedStencilBits >> options.filter;
+    in >> options.reservedStencilBits >> options.skipsUntouched;
     return options;
 }
 

@@ -127,12 +127,12 @@ TEST(Casters, AreTestedAsTheWayDownToThemSays) {
     ASSERT_EQ(mesh->cutouts.size(), 1u);
     EXPECT_EQ(mesh->cutouts[0].drawn, 1u);
     EXPECT_EQ(pieces->cutouts, 1u);
-    EXPECT_TRUE(pieces->own.empty());
+    EXPECT_TRUE(pieces->selfDrawings.empty());
     pane->setTexCoordArray(0, nullptr);
     const auto unknown = Casters::of(*root, {}, pieces);
     EXPECT_EQ(unknown->cutouts, 1u) << "by the state of what is above it";
-    ASSERT_EQ(unknown->own.size(), 1u);
-    EXPECT_EQ(unknown->own.front()->groupFromLocal.getTrans().x(), 5.0);
+    ASSERT_EQ(unknown->selfDrawings.size(), 1u);
+    EXPECT_EQ(unknown->selfDrawings.front()->groupFromLocal.getTrans().x(), 5.0);
 }
 
 namespace {

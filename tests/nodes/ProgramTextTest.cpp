@@ -15,7 +15,7 @@ osg::ref_ptr<osg::Program> programOf(const std::string& vertex, const std::strin
 
 bool moves(const std::string& vertex) { return gnomon::placesOf(*programOf(vertex)).movesVertices; }
 bool bends(const std::string& vertex, const std::string& fragment = "") {
-    return gnomon::placesOf(*programOf(vertex, fragment)).ownDepth;
+    return gnomon::placesOf(*programOf(vertex, fragment)).setsDepth;
 }
 
 } // namespace

@@ -107,7 +107,7 @@ TEST(TileUpdates, CulledAndAllOfThemGiveTheSameBits) {
     for (const test::View& view : {test::fromAbove(20.0, 200), test::fromAbove(60.0, 200), slanted}) {
         const test::Picture culled = fresh(sun, view);
         gnomon::CompositorOptions everything;
-        everything.filter = false;
+        everything.skipsUntouched = false;
         EXPECT_EQ(fresh(sun, view, TerrainShadowGeode::HULL, everything).different(culled), 0);
     }
 }

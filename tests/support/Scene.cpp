@@ -111,7 +111,7 @@ osg::Node* reserving(osg::Node* root, unsigned stencilBits) {
 
 osg::Node* unfiltered(osg::Node* root) {
     gnomon::CompositorOptions options;
-    options.filter = false;
+    options.skipsUntouched = false;
     return withOptions(root, options);
 }
 

@@ -87,20 +87,20 @@ bool isMoving(const AutoMotion& motion) { return motion.scene > 0.0 || motion.vi
 } // namespace
 
 /// Keeps no caster alive.
-AutoChooser::Seen AutoChooser::seenIn(const AutoView& view, const Selection& receiver, double error) const {
-    const ViewFrame& frame = view.frame;
+AutoChooser::Seen AutoChooser::seenIn(const ShadowInView& shadow, const Selection& receiver, double error) const {
+    const ViewFrame& frame = shadow.view;
     Fingerprint motion, sight, asked;
-    motion.mix(view.casters.fingerprint);
-    for (int i = 0; i < 4; ++i) motion.mix(view.light.inGroup[i]);
-    for (int i = 0; i < 3; ++i) motion.mix(view.light.direction[i]);
-    motion.mix(view.light.cutoff);
+    motion.mix(shadow.casters.fingerprint);
+    for (int i = 0; i < 4; ++i) motion.mix(shadow.light.inGroup[i]);
+    for (int i = 0; i < 3; ++i) motion.mix(shadow.light.direction[i]);
+    motion.mix(shadow.light.cutoff);
     sight.mix(frame.eyeFromGroup);
     sight.mix(frame.projection);
     sight.mix(fingerprintOf(frame.seen));
     for (const double number :
          {frame.pixels.x(), frame.pixels.y(), double(frame.group->getComposite()),
           double(frame.options.reservedStencilBits), double(frame.lights), double(frame.group->getDark()),
-          double(isFaint(view)), view.light.inGroup.w(), double(receiver.mask), double(_renderer->value.load())})
+          double(isFaint(shadow)), shadow.light.inGroup.w(), double(receiver.mask), double(_renderer->value.load())})
         asked.mix(number);
     for (const osg::ref_ptr<osg::Node>& root : receiver.roots()) asked.mix(static_cast<const void*>(root.get()));
     return {motion.value(), sight.value(), asked.value(), error};
@@ -108,7 +108,7 @@ AutoChooser::Seen AutoChooser::seenIn(const AutoView& view, const Selection& rec
 
 /// Whether the candidates are to be compared. A choice that is right only as long as things lie as they lie is looked at
 /// whenever they do not.
-bool AutoChooser::isDue(Choice& choice, const Seen& now, const AutoView& view, const Selection& receiver) {
+bool AutoChooser::isDue(Choice& choice, const Seen& now, const ShadowInView& shadow, const Selection& receiver) {
     ++choice.frames;
     if (choice.decision.decisions == 0) return true;
     const Seen before = std::exchange(choice.last, now);
@@ -121,8 +121,8 @@ bool AutoChooser::isDue(Choice& choice, const Seen& now, const AutoView& view, c
     if (now.asked != choice.decided.asked || now.error != choice.decided.error) return true;
     if (choice.seen == firstLook && isMoving(choice.moving)) return true; // the first decision took all to stand still
     if (now == before) return false;
-    if (!whyWrong(choice.candidate, view, receiver, _known).empty()) return true;
-    if (moves && std::max(triangles(view.casters), 1.0) > muchMore * choice.triangles) return true;
+    if (!whyWrong(choice.candidate, shadow, receiver, _known).empty()) return true;
+    if (moves && std::max(triangles(shadow.casters), 1.0) > muchMore * choice.triangles) return true;
     return choice.since >= settling && !isMoving(choice.movingThen); // so did the last one
 }
 
@@ -134,9 +134,9 @@ bool AutoChooser::isOld(const Choice& choice, const Seen& now) const {
     return choice.frames >= patience && isSettled && (cameToRest || !(now == choice.decided));
 }
 
-void AutoChooser::decide(Choice& choice, const Seen& now, const AutoView& view, const Selection& receiver) {
+void AutoChooser::decide(Choice& choice, const Seen& now, const ShadowInView& shadow, const Selection& receiver) {
     const CostRates& rates = ratesOf(_renderer->value);
-    const CandidateList list = listCandidates(view, receiver, _known);
+    const CandidateList list = listCandidates(shadow, receiver, _known);
     const AutoMotion expected{std::max(choice.moving.scene, rarely), choice.moving.view};
     ShadowDecision& decision = choice.decision;
     std::vector<ChoiceCandidate> judged;
@@ -151,7 +151,7 @@ void AutoChooser::decide(Choice& choice, const Seen& now, const AutoView& view, 
     if (decision.decisions > 0 && !candidate.isSame(choice.candidate)) ++decision.changes;
     ++decision.decisions;
     choice.candidate = candidate;
-    decision.light = view.light.number;
+    decision.light = shadow.light.number;
     decision.chosen = candidate.judged(rates, expected);
     decision.reason = list.nothing.empty() ? reasonFor(chosen.reason, now.error) + ": " + candidate.why
                                            : "none is needed: " + list.nothing;
@@ -160,38 +160,38 @@ void AutoChooser::decide(Choice& choice, const Seen& now, const AutoView& view, 
     choice.cause = decision.keepsBudget ? "" : causeOf(now.error, decision.chosen);
     choice.decided = choice.last = now;
     choice.movingThen = choice.moving;
-    choice.triangles = triangles(view.casters);
+    choice.triangles = triangles(shadow.casters);
     choice.frames = 0;
 }
 
-AutoChooser::Drawn AutoChooser::choose(const AutoView& view, const Selection& receiver,
+AutoChooser::Drawn AutoChooser::choose(const ShadowInView& shadow, const Selection& receiver,
                                        const AutoShadowOptions& options) {
     Lock lock(_mutex);
-    Choice& choice = _choices.of(view.frame.key, view.light.number, view.frame.frameNumber);
-    choice.kind = view.frame.kind;
-    _lastStage = view.frame.key.stage;
+    Choice& choice = _choices.of(shadow.view.key, shadow.light.number, shadow.view.frameNumber);
+    choice.kind = shadow.view.kind;
+    _lastStage = shadow.view.key.stage;
     _idleCulls = 0;
-    TimeKeeper* keeper = options.time > 0.0 ? &keeperOf(view.frame.key.stage, options) : nullptr;
-    const Seen now = seenIn(view, receiver, keeper ? keeper->error() : usualError(options));
-    if (isDue(choice, now, view, receiver) || isOld(choice, now)) decide(choice, now, view, receiver);
-    if (choice.candidate.kind != AutoCandidate::Kind::Mixed) _known.splits.forgetOthersThan(view.casters);
-    Drawn drawn{sharesOf(choice.candidate, view, receiver), {}};
+    TimeKeeper* keeper = options.time > 0.0 ? &keeperOf(shadow.view.key.stage, options) : nullptr;
+    const Seen now = seenIn(shadow, receiver, keeper ? keeper->error() : usualError(options));
+    if (isDue(choice, now, shadow, receiver) || isOld(choice, now)) decide(choice, now, shadow, receiver);
+    if (choice.candidate.kind != AutoCandidate::Kind::Mixed) _known.splits.forgetOthersThan(shadow.casters);
+    Drawn drawn{sharesOf(choice.candidate, shadow, receiver), {}};
     for (const std::string& cause : {choice.cause, keeper ? keeper->whyNot() : ""})
         if (!cause.empty()) drawn.causes.push_back(cause);
     return drawn;
 }
 
-std::vector<AutoChooser::Drawn::Share> AutoChooser::sharesOf(const AutoCandidate& candidate, const AutoView& view,
+std::vector<AutoChooser::Drawn::Share> AutoChooser::sharesOf(const AutoCandidate& candidate, const ShadowInView& shadow,
                                                              const Selection& receiver) {
     if (candidate.kind == AutoCandidate::Kind::Nothing) return {};
     if (candidate.kind != AutoCandidate::Kind::Mixed)
-        return {{_inner.of(candidate, receiver, _choices.round()), &view.casters}};
-    const CasterSplit& split = _known.splits.of(view.casters);
+        return {{_inner.of(candidate, receiver, _choices.round()), &shadow.casters}};
+    const CasterSplit& split = _known.splits.of(shadow.casters);
     AutoCandidate volume, map = candidate;
     volume.kind = AutoCandidate::Kind::Volume;
     map.kind = AutoCandidate::Kind::Map;
-    return {{_inner.of(volume, receiver, _choices.round()), split.simple(view.casters)},
-            {_inner.of(map, receiver, _choices.round()), split.dense(view.casters)}};
+    return {{_inner.of(volume, receiver, _choices.round()), split.simple(shadow.casters)},
+            {_inner.of(map, receiver, _choices.round()), split.dense(shadow.casters)}};
 }
 
 TimeKeeper& AutoChooser::keeperOf(const void* stage, const AutoShadowOptions& options) {

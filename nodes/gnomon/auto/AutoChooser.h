@@ -33,7 +33,7 @@ public:
         std::vector<Share> shares;       ///< empty: no shadow is drawn.
         std::vector<std::string> causes; ///< for ShadowTechnique::report(): the budget cannot be kept.
     };
-    Drawn choose(const AutoView& view, const Selection& receiver, const AutoShadowOptions& options);
+    Drawn choose(const ShadowInView& shadow, const Selection& receiver, const AutoShadowOptions& options);
 
     /// A cull begins. Lets all go that is kept of casters if none of the last culls had any.
     /// @param isCurrent  the thread may ask OpenGL, and so learns who draws.
@@ -73,12 +73,13 @@ private:
         AutoMotion moving;      ///< of the recent frames.
         AutoMotion movingThen;  ///< when the candidates were compared.
     };
-    Seen seenIn(const AutoView& view, const Selection& receiver, double error) const;
+    Seen seenIn(const ShadowInView& shadow, const Selection& receiver, double error) const;
     TimeKeeper& keeperOf(const void* stage, const AutoShadowOptions& options);
-    std::vector<Drawn::Share> sharesOf(const AutoCandidate& candidate, const AutoView& view, const Selection& receiver);
-    bool isDue(Choice& choice, const Seen& now, const AutoView& view, const Selection& receiver);
+    std::vector<Drawn::Share> sharesOf(const AutoCandidate& candidate, const ShadowInView& shadow,
+                                       const Selection& receiver);
+    bool isDue(Choice& choice, const Seen& now, const ShadowInView& shadow, const Selection& receiver);
     bool isOld(const Choice& choice, const Seen& now) const;
-    void decide(Choice& choice, const Seen& now, const AutoView& view, const Selection& receiver);
+    void decide(Choice& choice, const Seen& now, const ShadowInView& shadow, const Selection& receiver);
 
     /// Of the shadows of one view, while time= is set.
     struct Keeper {

@@ -64,10 +64,10 @@ std::vector<PlacedTriangles> trianglesOf(const CasterLayers& casters) {
 }
 
 /// The view without some casters: their triangles are looked at.
-ViewFrame without(const Casters& casters, const AutoView& view) {
+ViewFrame without(const Casters& casters, const ShadowInView& shadow) {
     std::unordered_set<const osg::Drawable*> casting;
     for (const auto& piece : casters.list) casting.insert(piece->drawable.get());
-    ViewFrame result = view.frame;
+    ViewFrame result = shadow.view;
     const auto casts = [&](const osgUtil::RenderLeaf* leaf) { return casting.count(leaf->_drawable.get()) > 0; };
     result.seen.erase(std::remove_if(result.seen.begin(), result.seen.end(), casts), result.seen.end());
     return result;
@@ -96,43 +96,43 @@ bool isShadedByOpenGl(const osgUtil::StateGraph* graph) {
 } // namespace
 
 /// Shadows of lights that are fainter may fall on the same place, and are left out, too.
-bool isFaint(const AutoView& view) {
-    const auto found = view.frame.strengths.find(view.light.number);
-    if (view.frame.group->getComposite() != ShadowCasterGroup::RELIGHT || found == view.frame.strengths.end())
+bool isFaint(const ShadowInView& shadow) {
+    const auto found = shadow.view.strengths.find(shadow.light.number);
+    if (shadow.view.group->getComposite() != ShadowCasterGroup::RELIGHT || found == shadow.view.strengths.end())
         return false;
-    const auto own = std::make_pair(found->second, found->first);
+    const auto ofLight = std::make_pair(found->second, found->first);
     double together = 0.0;
-    for (const auto& [number, strength] : view.frame.strengths)
-        if (std::make_pair(strength, number) <= own) together += strength;
+    for (const auto& [number, strength] : shadow.view.strengths)
+        if (std::make_pair(strength, number) <= ofLight) together += strength;
     if (!(together < leastContrast)) return false;
-    return std::all_of(view.frame.seen.begin(), view.frame.seen.end(),
+    return std::all_of(shadow.view.seen.begin(), shadow.view.seen.end(),
                        [](const osgUtil::RenderLeaf* leaf) { return isShadedByOpenGl(leaf->_parent); });
 }
 
-std::string whyCoarse(const AutoView& view) {
+std::string whyCoarse(const ShadowInView& shadow) {
     const std::vector<const osgUtil::RenderLeaf*> none;
-    const LitView lit{*view.frame.group, view.light, view.casters, none, view.frame.eyeFromGroup};
-    const DepthPixels pixels{view.frame.pixels, 1.0};
-    if (!reachesCoarseDepth(lit, view.frame.projection, pixels)) return {};
-    const std::string name = coarselyPlaced(lit, view.frame.projection, pixels);
+    const LightInView lit{*shadow.view.group, shadow.light, shadow.casters, none, shadow.view.eyeFromGroup};
+    const DepthPixels pixels{shadow.view.pixels, 1.0};
+    if (!reachesCoarseDepth(lit, shadow.view.projection, pixels)) return {};
+    const std::string name = coarselyPlaced(lit, shadow.view.projection, pixels);
     return name.empty() ? "" : "depths are too coarse at '" + name + "'";
 }
 
 std::string whyCutOut(const Casters& casters) { return casters.cutouts > 0 ? "casters have clear parts" : ""; }
 
-TerrainFacts TerrainKnowledge::of(const AutoView& view, const Selection& receiver) {
+TerrainFacts TerrainKnowledge::of(const ShadowInView& shadow, const Selection& receiver) {
     if (!hasPart(OptionalPart::Terrain)) return {"this build has no Qhull"};
-    if (const std::string cutOut = whyCutOut(view.casters); !cutOut.empty()) return {cutOut};
+    if (const std::string cutOut = whyCutOut(shadow.casters); !cutOut.empty()) return {cutOut};
     if (receiver == Selection()) return {"no terrain is named as receiver"};
-    const glm::dvec3 sun(view.towards);
+    const glm::dvec3 sun(shadow.towards);
     const double across = glm::length(glm::dvec2(sun));
-    if (!(view.towards.w == 0.0 && sun.z > 0.0)) return {"the light is no sun above the horizon"};
-    _drawn = groundRevision(*view.frame.group, receiver, _drawn);
+    if (!(shadow.towards.w == 0.0 && sun.z > 0.0)) return {"the light is no sun above the horizon"};
+    _drawn = groundRevision(*shadow.view.group, receiver, _drawn);
     if (!(_drawn->steepest * across < steepShare * sun.z)) return {"the terrain is so steep that it may shadow itself"};
     std::vector<double> bends;
-    const std::size_t step = view.casters.list.size() / mostSamples + 1;
-    for (std::size_t i = 0; i < view.casters.list.size(); i += step) {
-        const Caster& piece = *view.casters.list[i];
+    const std::size_t step = shadow.casters.list.size() / mostSamples + 1;
+    for (std::size_t i = 0; i < shadow.casters.list.size(); i += step) {
+        const Caster& piece = *shadow.casters.list[i];
         if (!piece.bounds.valid() || _drawn->drawables.count(piece.drawable.get())) continue;
         if (const auto found = bend(*_drawn->ground, piece.bounds, -glm::dvec2(sun) / sun.z)) bends.push_back(*found);
     }
@@ -141,14 +141,14 @@ TerrainFacts TerrainKnowledge::of(const AutoView& view, const Selection& receive
     return {"", rise / std::max(sun.z / std::max(across, 1e-12) - _drawn->steepest, 1e-3)};
 }
 
-MapEdges::MapEdges(const AutoView& view, const MapCasters& boxes, const MapForecast& forecast)
-    : _pixels(view.frame.pixels.x(), view.frame.pixels.y()) {
+MapEdges::MapEdges(const ShadowInView& shadow, const MapCasters& boxes, const MapForecast& forecast)
+    : _pixels(shadow.view.pixels.x(), shadow.view.pixels.y()) {
     const SceneFrame scene(boxes.layers.origin);
-    _clipFromScene = scene.clipFromScene(view.frame);
-    const glm::dvec4 light = view.towards - view.towards.w * glm::dvec4(scene.origin, 0.0);
-    const bool byTriangles = !view.frame.receivers && areLookedAt(*boxes.of);
+    _clipFromScene = scene.clipFromScene(shadow.view);
+    const glm::dvec4 light = shadow.towards - shadow.towards.w * glm::dvec4(scene.origin, 0.0);
+    const bool byTriangles = !shadow.view.receivers && areLookedAt(*boxes.of);
     const std::vector<PlacedBox> receivers =
-        receiversOf(byTriangles ? without(*boxes.of, view) : view.frame, scene.eyeFromScene(view.frame));
+        receiversOf(byTriangles ? without(*boxes.of, shadow) : shadow.view, scene.eyeFromScene(shadow.view));
     const auto seenOf = [&](SeenEdges::Relief relief) {
         SeenEdges seen(_clipFromScene, _pixels, *forecast.bounds, light);
         for (const PlacedBox& receiver : receivers) seen.addReceiver(receiver, relief);
@@ -191,23 +191,23 @@ void CasterSplit::follow(const Casters& all) {
         (isForMap(*piece, all.bounds.radius()) ? dense : simple).push_back(piece);
     }
     set(_simple, std::move(simple), {}, all.choice);
-    set(_dense, std::move(dense), all.own, all.choice);
+    set(_dense, std::move(dense), all.selfDrawings, all.choice);
 }
 
 /// What is the same stays, and with it all that was made of it.
-void CasterSplit::set(Part& part, CasterList pieces, Casters::OwnList own, std::uint64_t choice) {
-    if (pieces.empty() && own.empty()) {
+void CasterSplit::set(Part& part, CasterList pieces, Casters::SelfDrawings selfDrawings, std::uint64_t choice) {
+    if (pieces.empty() && selfDrawings.empty()) {
         part.now.set(nullptr);
         part.former = nullptr;
         return;
     }
     const osg::ref_ptr<const Casters> before = part.now.get();
-    if (before && before->list == pieces && before->own == own) return;
+    if (before && before->list == pieces && before->selfDrawings == selfDrawings) return;
     Fingerprint fingerprint;
     for (const auto& piece : pieces) fingerprint.mix(piece->fingerprint);
-    for (const auto& drawing : own) fingerprint.mix(static_cast<const void*>(drawing.get()));
+    for (const auto& drawing : selfDrawings) fingerprint.mix(static_cast<const void*>(drawing.get()));
     if (before && before->hasLayers()) part.former = before;
-    part.now.set(new Casters(std::move(pieces), fingerprint.value(), choice, std::move(own)));
+    part.now.set(new Casters(std::move(pieces), fingerprint.value(), choice, std::move(selfDrawings)));
 }
 
 osg::ref_ptr<const Casters> CasterSplit::partOf(const Casters& all, const Part& part) {

@@ -18,9 +18,9 @@
 
 namespace gnomon {
 
-/// What a decision is about: one light in one view, and the casters.
-struct AutoView {
-    const ViewFrame& frame;
+/// What a decision is about: one light's shadow in one view.
+struct ShadowInView {
+    const ViewFrame& view;
     const ShadowLight& light;
     const Casters& casters; ///< a decision alone asks for their meshes.
     glm::dvec4 towards;     ///< the light, group frame: w = 0 and length 1, or w = 1.
@@ -31,10 +31,10 @@ constexpr double leastContrast = 2.0 / 255.0;
 
 /// True if nobody could see that the receivers lose a light: with all that are fainter it gives them less than two of 255
 /// steps of any channel.
-bool isFaint(const AutoView& view);
+bool isFaint(const ShadowInView& shadow);
 
 /// Why depths do not tell where casters' shadows fall; empty if they do.
-std::string whyCoarse(const AutoView& view);
+std::string whyCoarse(const ShadowInView& shadow);
 
 /// Why casters need a technique that knows their textures; empty if they do not.
 std::string whyCutOut(const Casters& casters);
@@ -51,7 +51,7 @@ struct TerrainFacts {
 class TerrainKnowledge {
 public:
     /// @param receiver  that the technique names.
-    TerrainFacts of(const AutoView& view, const Selection& receiver);
+    TerrainFacts of(const ShadowInView& shadow, const Selection& receiver);
 
 private:
     osg::ref_ptr<const GroundRevision> _drawn;
@@ -61,7 +61,7 @@ private:
 class MapEdges {
 public:
     /// @param boxes  of the casters. @param forecast  of as few maps as can be.
-    MapEdges(const AutoView& view, const MapCasters& boxes, const MapForecast& forecast);
+    MapEdges(const ShadowInView& shadow, const MapCasters& boxes, const MapForecast& forecast);
 
     /// As they are looked up in these maps. None where no place that is seen is in a map.
     EdgeWidths in(const MapForecast& forecast) const;
@@ -105,7 +105,7 @@ private:
         mutable osg::ref_ptr<const Casters> former; ///< retired ones, whose layers the next are made from.
     };
     static osg::ref_ptr<const Casters> partOf(const Casters& all, const Part& part);
-    static void set(Part& part, CasterList pieces, Casters::OwnList own, std::uint64_t choice);
+    static void set(Part& part, CasterList pieces, Casters::SelfDrawings selfDrawings, std::uint64_t choice);
 
     osg::observer_ptr<const Casters> _all;
     Part _simple, _dense;

@@ -51,7 +51,7 @@ constexpr int sizes[] = {512, 1024, 2048, 4096};
 
 /// Why a candidate would leave a caster out; empty if it would not.
 std::string whyOnlyMaps(const AutoCandidate& candidate, const Casters& casters) {
-    return candidate.hasMap() || casters.own.empty() ? "" : "a caster draws itself, and only maps can let it";
+    return candidate.hasMap() || casters.selfDrawings.empty() ? "" : "a caster draws itself, and only maps can let it";
 }
 
 std::string whyNotTraced(const Casters& casters) {
@@ -62,8 +62,8 @@ std::string whyNotTraced(const Casters& casters) {
 bool needsDepths(Kind kind) { return kind != Kind::Nothing && kind != Kind::Traced; }
 
 /// Why rays alone tell where shadows fall; empty if others do, too, or if rays cannot be had.
-std::string whyOnlyRays(const AutoView& view) {
-    return whyNotTraced(view.casters).empty() && view.casters.own.empty() ? whyCoarse(view) : "";
+std::string whyOnlyRays(const ShadowInView& shadow) {
+    return whyNotTraced(shadow.casters).empty() && shadow.casters.selfDrawings.empty() ? whyCoarse(shadow) : "";
 }
 
 /// Of meshes whose parts are no boxes: each triangle may be on an outline.
@@ -117,19 +117,19 @@ double pixelsOf(const ViewFrame& frame, const ScreenRect& bounds) {
 /// Finds the candidates of one view.
 class Lister {
 public:
-    Lister(const AutoView& view, const Selection& receiver, AutoKnowledge& known)
-        : _view(view),
+    Lister(const ShadowInView& shadow, const Selection& receiver, AutoKnowledge& known)
+        : _shadow(shadow),
           _receiver(receiver),
           _known(known),
-          _layers(view.casters.layers()),
-          _boxes(partsOf(view.casters)) {}
+          _layers(shadow.casters.layers()),
+          _boxes(partsOf(shadow.casters)) {}
 
     CandidateList list() {
         _one = forecast(*_boxes, 1, sizes[0]);
         _result.nothing = whyNothing();
         if (!_result.nothing.empty()) return only();
         measure();
-        const MapEdges edges(_view, *_boxes, _one);
+        const MapEdges edges(_shadow, *_boxes, _one);
         _widths = edges.in(_one);
         _sampled = _widths->empty() ? sampledEdge : _widths->usual(usualShare, sampledError);
         addTerrain();
@@ -137,9 +137,9 @@ public:
         addVolume();
         addMixed();
         addTraced();
-        const std::string onlyRays = whyOnlyRays(_view);
+        const std::string onlyRays = whyOnlyRays(_shadow);
         for (AutoCandidate& candidate : _result.all) {
-            if (candidate.obstacle.empty()) candidate.obstacle = whyOnlyMaps(candidate, _view.casters);
+            if (candidate.obstacle.empty()) candidate.obstacle = whyOnlyMaps(candidate, _shadow.casters);
             if (candidate.obstacle.empty() && needsDepths(candidate.kind)) candidate.obstacle = onlyRays;
         }
         return _result;
@@ -147,11 +147,11 @@ public:
 
 private:
     std::string whyNothing() const {
-        if (_view.frame.seen.empty()) return "no receiver is in sight";
+        if (_shadow.view.seen.empty()) return "no receiver is in sight";
         if (_one.maps == 0) return "no shadow can fall on what is in sight";
         if (_one.texels < leastShadow) return "the shadow is narrower than half a pixel";
-        if (isFaint(_view)) return "the light is so faint that nobody could see its shadow";
-        if (blends() && _view.frame.group->getDark() >= 1.0f - float(leastContrast))
+        if (isFaint(_shadow)) return "the light is so faint that nobody could see its shadow";
+        if (blends() && _shadow.view.group->getDark() >= 1.0f - float(leastContrast))
             return "the shadow would not be seen, as its factor is 1";
         return {};
     }
@@ -163,29 +163,29 @@ private:
         return _result;
     }
 
-    bool blends() const { return _view.frame.group->getComposite() == ShadowCasterGroup::BLEND; }
+    bool blends() const { return _shadow.view.group->getComposite() == ShadowCasterGroup::BLEND; }
 
     /// What every technique costs: the compositor's part.
     void measure() {
-        _pixels = pixelsOf(_view.frame, *_one.bounds);
+        _pixels = pixelsOf(_shadow.view, *_one.bounds);
         _casters = double(_layers.triangles());
-        _compose.calls = 2.0 + callsAPiece * double(_view.casters.list.size());
+        _compose.calls = 2.0 + callsAPiece * double(_shadow.casters.list.size());
         _compose.filled = darkened * _pixels;
         if (blends()) return;
         _compose.calls += callsToRelight;
         _compose.filled += relitAnew * _pixels;
-        _compose.relit = trianglesWithin(_view.frame.seen, *_one.bounds);
-        _compose.calls += callsALeaf * double(_view.frame.seen.size());
+        _compose.relit = trianglesWithin(_shadow.view.seen, *_one.bounds);
+        _compose.calls += callsALeaf * double(_shadow.view.seen.size());
     }
 
     void addTerrain() {
-        const TerrainFacts facts = _known.terrain.of(_view, _receiver);
+        const TerrainFacts facts = _known.terrain.of(_shadow, _receiver);
         AutoCandidate hull;
         hull.kind = Kind::Terrain;
         hull.obstacle = facts.obstacle;
         hull.why = "the named terrain shadows no part of itself";
         hull.error = polygonError(facts.off / _one.pixel);
-        const double dense = denseTriangles(_view.casters), boxes = (_casters - dense) / 12.0;
+        const double dense = denseTriangles(_shadow.casters), boxes = (_casters - dense) / 12.0;
         hull.still = _compose;
         hull.still.calls += 4.0;
         hull.still.triangles = 6.0 * boxes + 1.2 * dense;
@@ -197,16 +197,16 @@ private:
         ShadowMapOptions options;
         options.cascades = cascades;
         options.size = size;
-        return forecastMaps(_view.frame, _view.light, boxes, MapSettings(options));
+        return forecastMaps(_shadow.view, _shadow.light, boxes, MapSettings(options));
     }
 
     /// One map, and as many as the size asks for, where those are more.
     void addMaps(const MapEdges& edges) {
-        const double pieces = double(_view.casters.list.size());
+        const double pieces = double(_shadow.casters.list.size());
         for (const int size : sizes) {
             for (const MapQuality& quality : qualities)
                 _result.all.push_back(mapOf({_one, *_widths, _pixels, _casters, pieces}, 1, size, quality));
-            const MapForecast several = _view.towards.w == 0.0 ? forecast(*_boxes, 0, size) : _one;
+            const MapForecast several = _shadow.towards.w == 0.0 ? forecast(*_boxes, 0, size) : _one;
             if (several.maps == _one.maps) continue;
             const EdgeWidths each = edges.in(several);
             for (const MapQuality& quality : qualities)
@@ -252,9 +252,9 @@ private:
         AutoCandidate volume;
         volume.kind = Kind::Volume;
         volume.error = _sampled;
-        volume.obstacle = whyCutOut(_view.casters);
+        volume.obstacle = whyCutOut(_shadow.casters);
         volume.still = _compose;
-        _volumes = forecastVolumes(_view.frame, _layers, _view.towards, _known.open);
+        _volumes = forecastVolumes(_shadow.view, _layers, _shadow.towards, _known.open);
         addVolumeOf(_volumes, _casters, volume);
         volume.why = "its volumes have some " + roundedText(_volumes.sides) + " sides";
         _result.all.push_back(volume);
@@ -269,20 +269,20 @@ private:
 
     /// A map that is fitted to some of the casters has smaller texels; and it need not draw the others.
     void addMixed() {
-        const CasterSplit& split = _known.splits.of(_view.casters);
+        const CasterSplit& split = _known.splits.of(_shadow.casters);
         if (!split.isDivided()) return;
-        const osg::ref_ptr<const Casters> dense = split.dense(_view.casters);
+        const osg::ref_ptr<const Casters> dense = split.dense(_shadow.casters);
         const CasterLayers& layers = dense->layers();
         const double simple = _casters - double(layers.triangles());
         const osg::ref_ptr<const MapCasters> boxes = partsOf(*dense);
         const MapForecast one = forecast(*boxes, 1, sizes[0]);
         if (one.maps == 0) return;
-        const EdgeWidths edges = MapEdges(_view, *boxes, one).in(one);
-        const Mapped mapped{one, edges, pixelsOf(_view.frame, *one.bounds), double(layers.triangles()),
+        const EdgeWidths edges = MapEdges(_shadow, *boxes, one).in(one);
+        const Mapped mapped{one, edges, pixelsOf(_shadow.view, *one.bounds), double(layers.triangles()),
                             double(dense->list.size())};
         AutoCandidate volume;
         const VolumeForecast others =
-            forecastVolumes(_view.frame, layers, _view.towards, _known.open, _volumes.counted);
+            forecastVolumes(_shadow.view, layers, _shadow.towards, _known.open, _volumes.counted);
         addVolumeOf(_volumes - others, simple, volume);
         volume.still.calls += 3.0; // marks are handed on
         for (const int size : sizes)
@@ -301,9 +301,9 @@ private:
     /// The two need a stencil bit each where edges are smooth, and another to hand marks on; the volumes count in others.
     std::string whyNotTogether(Map::Edges edges) const {
         const bool fades = edges == Map::SMOOTH && !blends();
-        if (fades && _view.frame.lights > 1) return "stencil bits are too few for smooth edges of several lights";
-        const std::size_t free = 8 - std::bitset<8>(_view.frame.options.reservedStencilBits).count();
-        const std::size_t needed = edges == Map::SMOOTH ? 6 : 2 + std::min(_view.frame.lights, mostRelitLights);
+        if (fades && _shadow.view.lights > 1) return "stencil bits are too few for smooth edges of several lights";
+        const std::size_t free = 8 - std::bitset<8>(_shadow.view.options.reservedStencilBits).count();
+        const std::size_t needed = edges == Map::SMOOTH ? 6 : 2 + std::min(_shadow.view.lights, mostRelitLights);
         return free < needed ? "too many stencil bits are reserved" : "";
     }
 
@@ -312,14 +312,14 @@ private:
         traced.kind = Kind::Traced;
         traced.error = _sampled;
         traced.why = "rays are cast for some " + roundedText(_pixels) + " pixels";
-        traced.obstacle = whyNotTraced(_view.casters);
+        traced.obstacle = whyNotTraced(_shadow.casters);
         traced.still = _compose;
         traced.still.pixels = 2.0 * _pixels;
         traced.still.rays = _pixels;
         _result.all.push_back(traced);
     }
 
-    const AutoView& _view;
+    const ShadowInView& _shadow;
     const Selection& _receiver;
     AutoKnowledge& _known;
     const CasterLayers& _layers;
@@ -335,21 +335,21 @@ private:
 
 } // namespace
 
-CandidateList listCandidates(const AutoView& view, const Selection& receiver, AutoKnowledge& known) {
-    return Lister(view, receiver, known).list();
+CandidateList listCandidates(const ShadowInView& shadow, const Selection& receiver, AutoKnowledge& known) {
+    return Lister(shadow, receiver, known).list();
 }
 
-std::string whyWrong(const AutoCandidate& candidate, const AutoView& view, const Selection& receiver,
+std::string whyWrong(const AutoCandidate& candidate, const ShadowInView& shadow, const Selection& receiver,
                      AutoKnowledge& known) {
-    const std::string own = whyOnlyMaps(candidate, view.casters);
-    if (!own.empty()) return own;
+    const std::string why = whyOnlyMaps(candidate, shadow.casters);
+    if (!why.empty()) return why;
     if (candidate.kind == Kind::Nothing) return "a shadow may be needed now";
     if (needsDepths(candidate.kind))
-        if (const std::string coarse = whyOnlyRays(view); !coarse.empty()) return coarse;
-    if (candidate.kind == Kind::Terrain) return known.terrain.of(view, receiver).obstacle;
-    if (candidate.kind == Kind::Mixed && !known.splits.of(view.casters).isDivided())
+        if (const std::string coarse = whyOnlyRays(shadow); !coarse.empty()) return coarse;
+    if (candidate.kind == Kind::Terrain) return known.terrain.of(shadow, receiver).obstacle;
+    if (candidate.kind == Kind::Mixed && !known.splits.of(shadow.casters).isDivided())
         return "all casters are of one kind";
-    if (candidate.kind == Kind::Volume || candidate.kind == Kind::Traced) return whyCutOut(view.casters);
+    if (candidate.kind == Kind::Volume || candidate.kind == Kind::Traced) return whyCutOut(shadow.casters);
     return {};
 }
 

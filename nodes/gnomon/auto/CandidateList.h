@@ -24,10 +24,10 @@ struct CandidateList {
 
 /// @param receiver  that the technique names.
 /// A new technique is one more function in CandidateList.cpp.
-CandidateList listCandidates(const AutoView& view, const Selection& receiver, AutoKnowledge& known);
+CandidateList listCandidates(const ShadowInView& shadow, const Selection& receiver, AutoKnowledge& known);
 
 /// Why a candidate that was right for another frame is wrong now; empty if it still is right.
-std::string whyWrong(const AutoCandidate& candidate, const AutoView& view, const Selection& receiver,
+std::string whyWrong(const AutoCandidate& candidate, const ShadowInView& shadow, const Selection& receiver,
                      AutoKnowledge& known);
 
 } // namespace gnomon

@@ -32,9 +32,10 @@ void keep(osg::Node& node) {
     node.getOrCreateUserDataContainer();
     if (!node.asGeode() || (node.getStateSet() && node.getStateSet()->getDataVariance() == osg::Object::DYNAMIC))
         return;
-    osg::ref_ptr<osg::StateSet> own = node.getStateSet() ? new osg::StateSet(*node.getStateSet()) : new osg::StateSet;
-    own->setDataVariance(osg::Object::DYNAMIC); // not shared with equal ones
-    node.setStateSet(own);
+    osg::ref_ptr<osg::StateSet> guarded =
+        node.getStateSet() ? new osg::StateSet(*node.getStateSet()) : new osg::StateSet;
+    guarded->setDataVariance(osg::Object::DYNAMIC); // not shared with equal ones
+    node.setStateSet(guarded);
 }
 
 bool isBelow(const osg::Node& node, const osg::Node& top) {

@@ -148,7 +148,7 @@ ProgramPlaces found(const osg::Program& program, const std::string& vertex, cons
     const Tokens tokens = tokensOf(vertex);
     ProgramPlaces places;
     places.movesVertices = !vertex.empty() && !VertexWay(tokens, program).arrives();
-    places.ownDepth = bendsDepth(vertex, tokens) || replacesDepth(fragment);
+    places.setsDepth = bendsDepth(vertex, tokens) || replacesDepth(fragment);
     const Tokens inFragment = contains(fragment, discard) ? tokensOf(fragment) : Tokens();
     places.discards = std::find(inFragment.begin(), inFragment.end(), discard) != inFragment.end();
     return places;

@@ -11,7 +11,7 @@ struct ProgramPlaces {
     /// Vertices may go elsewhere than OpenGL's matrices take them: by instance, bone, displacement, or in another stage.
     bool movesVertices = false;
     /// The depth is not the one that the projection gives: a logarithm, or a gl_FragDepth of its own.
-    bool ownDepth = false;
+    bool setsDepth = false;
     /// Fragments may be discarded.
     bool discards = false;
 };

@@ -49,8 +49,8 @@ bool isBody(const Caster& piece) {
            isPlacement(toGlm(piece.groupFromLocal));
 }
 
-OwnDrawing::OwnDrawing(const osg::NodePath& path, const osg::Drawable& given, const osg::Matrixd& matrix,
-                       const Casting& what)
+SelfDrawing::SelfDrawing(const osg::NodePath& path, const osg::Drawable& given, const osg::Matrixd& matrix,
+                         const Casting& what)
     : fingerprint(fingerprintOf(path, given, matrix, what)),
       drawable(&given),
       groupFromLocal(matrix),
@@ -68,8 +68,8 @@ OwnDrawing::OwnDrawing(const osg::NodePath& path, const osg::Drawable& given, co
     }
 }
 
-std::uint64_t OwnDrawing::fingerprintOf(const osg::NodePath& path, const osg::Drawable& drawable,
-                                        const osg::Matrixd& groupFromLocal, const Casting& casting) {
+std::uint64_t SelfDrawing::fingerprintOf(const osg::NodePath& path, const osg::Drawable& drawable,
+                                         const osg::Matrixd& groupFromLocal, const Casting& casting) {
     Fingerprint result;
     result.mix(CasterFingerprint::of(drawable, groupFromLocal, casting));
     result.mix(static_cast<const void*>(&drawable));

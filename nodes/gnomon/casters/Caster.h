@@ -36,7 +36,7 @@ struct Caster : public osg::Referenced {
     unsigned invalidTriangles = 0;              ///< Triangles left out; see CasterExtraction::getInvalidTriangles().
     std::string invalidNode;                    ///< See CasterExtraction::getInvalidNode().
     bool cutOut = false;                        ///< It has triangles that are clear in part.
-    bool ownDrawn = false;                      ///< The same, and only its own drawing tells what is clear.
+    bool selfDrawn = false;                     ///< The same, and only its own drawing tells what is clear.
     osg::ref_ptr<const TextureAlpha> alphas;    ///< Of the texture that its casting looked at; may be null.
     std::string cutoutNode;                     ///< See CasterExtraction::getCutoutNode().
     std::vector<osg::ref_ptr<const osg::Referenced>> sources; ///< See CasterExtraction::getSources().
@@ -54,14 +54,14 @@ constexpr std::size_t fewestOfABody = 256;
 bool isBody(const Caster& piece);
 
 /// A caster whose shape, or whose clear parts, only its own code, program or state knows, at one place in the graph. It
-/// never changes. drawsItself() and Caster::ownDrawn tell which drawables are such.
+/// never changes. drawsItself() and Caster::selfDrawn tell which drawables are such.
 ///
 /// Limits
 /// - It counts as changed by its place, bounds, arrays, state sets and their uniforms. What moves otherwise is DYNAMIC.
-struct OwnDrawing : public osg::Referenced {
+struct SelfDrawing : public osg::Referenced {
     /// Of the drawable at the end of a path, which begins at the group.
-    OwnDrawing(const osg::NodePath& path, const osg::Drawable& drawable, const osg::Matrixd& groupFromLocal,
-               const Casting& casting);
+    SelfDrawing(const osg::NodePath& path, const osg::Drawable& drawable, const osg::Matrixd& groupFromLocal,
+                const Casting& casting);
 
     /// Changes with all that is known to change the drawing.
     static std::uint64_t fingerprintOf(const osg::NodePath& path, const osg::Drawable& drawable,
@@ -81,7 +81,7 @@ struct OwnDrawing : public osg::Referenced {
     std::vector<osg::ref_ptr<const osg::Referenced>> sources; ///< Held, so that no other can stand at their addresses.
 
 protected:
-    ~OwnDrawing() override = default;
+    ~SelfDrawing() override = default;
 };
 
 } // namespace gnomon

@@ -35,7 +35,7 @@ public:
         setRestart(casting.restart);
         if (casting.test) _clear.emplace(*casting.test, drawable);
         _keepsCoordinates = casting.test && casting.test->isSampled();
-        _mixed = casting.ownDrawn;
+        _mixed = casting.selfDrawn;
     }
 
     /// Half a step of a float of the size of the largest coordinates, carried to the root's frame.
@@ -178,7 +178,7 @@ void CasterExtraction::applyCaster(osg::Drawable& drawable, const Casting& casti
     casting.hold(drawable, _sources);
     if (!collector.isMixed() || _triangles.size() == firstCorner) return;
     if (_cutouts.empty()) _cutoutNode = nameHere(drawable);
-    const bool sampled = !casting.ownDrawn && casting.test->isSampled();
+    const bool sampled = !casting.selfDrawn && casting.test->isSampled();
     _cutouts.push_back({_drawn.size() - 1, !sampled, sampled ? *casting.test : AlphaTest(), firstVertex,
                         std::move(collector.coordinates())});
 }

@@ -47,7 +47,7 @@ public:
     /// A drawable with triangles that are clear in part, such as leaves or a fence. Those that are all clear are left out.
     struct Cutout {
         std::size_t drawn;    ///< Its index in getDrawn().
-        bool ownDrawn;        ///< Only its own drawing tells what is clear: it has no test or coordinates.
+        bool selfDrawn;       ///< Only its own drawing tells what is clear: it has no test or coordinates.
         AlphaTest test;       ///< The test. AlphaTest::isSampled().
         unsigned firstVertex; ///< Index of its first vertex in getVertices(). Its others follow.
         std::vector<osg::Vec3> coordinates; ///< Texture coordinates (s, t, q), one for each of its vertices.

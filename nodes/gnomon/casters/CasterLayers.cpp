@@ -38,7 +38,7 @@ double middleOf(const Casters& pieces, Measure measure) {
 /// With what draws itself.
 osg::BoundingBoxd boundsOf(const Casters& pieces) {
     osg::BoundingBoxd bounds = pieces.bounds;
-    for (const auto& drawing : pieces.own) bounds.expandBy(drawing->bounds);
+    for (const auto& drawing : pieces.selfDrawings) bounds.expandBy(drawing->bounds);
     return bounds;
 }
 
@@ -175,7 +175,7 @@ void CasterLayers::measure() {
     low = toGlm(bounds._min - origin);
     high = toGlm(bounds._max - origin);
     reach = glm::max(glm::abs(low), glm::abs(high));
-    for (const auto& drawing : _casters.own)
+    for (const auto& drawing : _casters.selfDrawings)
         if (drawing->bounds.valid()) widest = widestBody = std::max(widest, 2.0 * drawing->bounds.radius());
     double least = std::numeric_limits<double>::infinity();
     for (const auto& piece : _casters.list) {
@@ -184,9 +184,9 @@ void CasterLayers::measure() {
         const osg::Vec3f lowest(piece->bounds._min - origin), highest(piece->bounds._max - origin);
         const bool isFlat = lowest.x() == highest.x() || lowest.y() == highest.y() || lowest.z() == highest.z();
         if (!isFlat) widestBody = std::max(widestBody, 2.0 * piece->bounds.radius());
-        const double own = roundingOf(*piece);
-        rounding = std::max(rounding, own);
-        least = std::min(least, own);
+        const double ofPiece = roundingOf(*piece);
+        rounding = std::max(rounding, ofPiece);
+        least = std::min(least, ofPiece);
     }
     // One large ground must not cost what stands on it the light beside its shadows.
     if (rounding > 2.0 * least) rounding = middleOf(_casters, roundingOf);

@@ -49,7 +49,7 @@ constexpr unsigned nowhere = std::numeric_limits<unsigned>::max();
 
 /// @param places  where each vertex went, if it is used; those of a drawable still follow one another.
 CasterExtraction::Cutout renumbered(const CasterExtraction::Cutout& found, const std::vector<unsigned>& places) {
-    CasterExtraction::Cutout result{found.drawn, found.ownDrawn, found.test, nowhere, {}};
+    CasterExtraction::Cutout result{found.drawn, found.selfDrawn, found.test, nowhere, {}};
     const unsigned* own = places.data() + found.firstVertex;
     for (std::size_t i = 0; i < found.coordinates.size(); ++i)
         result.firstVertex = std::min(result.firstVertex, own[i]);

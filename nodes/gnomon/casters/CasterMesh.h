@@ -107,7 +107,7 @@ struct PlacedMesh {
     double rounding = 0.0;         ///< Largest error of a vertex by its float source, group's unit.
     Hiding hiding = Hiding::Both;  ///< Of a body; what is joined has its own for each drawable.
     osg::BoundingBoxd bounds;      ///< Of its triangles, group frame.
-    bool ownDrawn = false;         ///< A body that maps draw by its own state: see Caster.
+    bool selfDrawn = false;        ///< A body that maps draw by its own state: see Caster.
 };
 
 } // namespace gnomon

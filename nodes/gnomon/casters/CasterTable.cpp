@@ -112,13 +112,13 @@ osg::ref_ptr<const Casters> CasterTable::knownTo(const CasterView* view) const {
 /// Those with layers that a view had last, or any that are known.
 osg::ref_ptr<const Casters> CasterTable::layersKnownTo(const void* view) const {
     osg::ref_ptr<const Casters> known;
-    bool isOwn = false;
+    bool isOfView = false;
     for (const Choice& entry : _choices) {
         const bool hasLayers = entry.casters.get()->hasLayers();
-        const osg::ref_ptr<const Casters>& own = hasLayers ? entry.casters.get() : entry.former;
-        if (!own || (isOwn && entry.view != view)) continue;
-        known = own;
-        isOwn = entry.view == view;
+        const osg::ref_ptr<const Casters>& withLayers = hasLayers ? entry.casters.get() : entry.former;
+        if (!withLayers || (isOfView && entry.view != view)) continue;
+        known = withLayers;
+        isOfView = entry.view == view;
     }
     return known;
 }

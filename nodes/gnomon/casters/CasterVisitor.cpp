@@ -201,8 +201,8 @@ void CasterVisitor::apply(osg::Node& node) {
 void CasterVisitor::apply(osg::Drawable& drawable) {
     const OnTheWay here(*this, drawable);
     if (_inside == 0 || isText(drawable)) return;
-    const bool triangles = hasTriangles(drawable), own = drawsItself(drawable);
-    if (!triangles && !own) return;
+    const bool triangles = hasTriangles(drawable), selfDrawn = drawsItself(drawable);
+    if (!triangles && !selfDrawn) return;
     const Casting casting = castingOf(drawable);
     if (!casting.casts) {
         if (_leftOut.empty()) _leftOut = nameAlong(getNodePath());
@@ -210,7 +210,7 @@ void CasterVisitor::apply(osg::Drawable& drawable) {
     }
     if (_atLevels > 0 || _hidden > 0) _choice.mix(static_cast<const void*>(&drawable));
     if (triangles) applyCaster(drawable, casting);
-    if (own) applyOwnDrawing(drawable, casting);
+    if (selfDrawn) applySelfDrawing(drawable, casting);
 }
 
 /// Found once for all below one root.

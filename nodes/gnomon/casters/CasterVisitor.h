@@ -79,7 +79,7 @@ protected:
     /// Called for each caster, once for each way down to it.
     virtual void applyCaster(osg::Drawable& drawable, const Casting& casting) = 0;
     /// Called in the same way for each that drawsItself(). A geometry may be both.
-    virtual void applyOwnDrawing(osg::Drawable&, const Casting&) {}
+    virtual void applySelfDrawing(osg::Drawable&, const Casting&) {}
     /// From the frame of the drawable being visited to that of the root.
     const osg::Matrixd& rootFromLocal() const { return _matrices.back(); }
     /// What its states leave of the drawable being visited: all, at no cost, if no state on the way to it may matter.

@@ -65,20 +65,20 @@ public:
     DrawableVisitor(const Selection& casters, const Casters* before, const KnownCasters* others)
         : CasterVisitor(casters),
           _known(before ? before->list : _none),
-          _knownOwn(before ? before->own : Casters::OwnList()),
+          _knownSelfDrawings(before ? before->selfDrawings : Casters::SelfDrawings()),
           _knownLeftOut(before ? before->leftOut : std::string()),
           _others(others) {}
 
     bool changed() const {
-        return _changed || _same != _known.size() || _own != _knownOwn || leftOut() != _knownLeftOut;
+        return _changed || _same != _known.size() || _selfDrawings != _knownSelfDrawings || leftOut() != _knownLeftOut;
     }
     std::uint64_t fingerprint() const { return _fingerprint.value(); }
     /// Those that were met.
     CasterList take() {
-        startOwnList();
+        startSelfDrawings();
         return std::move(_met);
     }
-    Casters::OwnList takeOwn() { return std::move(_own); }
+    Casters::SelfDrawings takeSelfDrawings() { return std::move(_selfDrawings); }
 
 protected:
     void applyCaster(osg::Drawable& drawable, const Casting& casting) override {
@@ -88,18 +88,18 @@ protected:
         placed.mix(static_cast<std::uint64_t>(hiding()));
         const std::uint64_t value = placed.value();
         _fingerprint.mix(value);
-        if (pieceOf(drawable, casting, geometry, value).ownDrawn) applyOwnDrawing(drawable, casting);
+        if (pieceOf(drawable, casting, geometry, value).selfDrawn) applySelfDrawing(drawable, casting);
     }
 
     /// In the old order as a rule.
-    void applyOwnDrawing(osg::Drawable& drawable, const Casting& casting) override {
-        const std::uint64_t value = OwnDrawing::fingerprintOf(getNodePath(), drawable, rootFromLocal(), casting);
+    void applySelfDrawing(osg::Drawable& drawable, const Casting& casting) override {
+        const std::uint64_t value = SelfDrawing::fingerprintOf(getNodePath(), drawable, rootFromLocal(), casting);
         _fingerprint.mix(value);
-        const std::size_t place = _own.size();
-        if (place < _knownOwn.size() && _knownOwn[place]->fingerprint == value)
-            _own.push_back(_knownOwn[place]);
+        const std::size_t place = _selfDrawings.size();
+        if (place < _knownSelfDrawings.size() && _knownSelfDrawings[place]->fingerprint == value)
+            _selfDrawings.push_back(_knownSelfDrawings[place]);
         else
-            _own.push_back(new OwnDrawing(getNodePath(), drawable, rootFromLocal(), casting));
+            _selfDrawings.push_back(new SelfDrawing(getNodePath(), drawable, rootFromLocal(), casting));
     }
 
 private:
@@ -109,7 +109,7 @@ private:
             ++_same;
             return *_known[_next++];
         }
-        startOwnList();
+        startSelfDrawings();
         osg::ref_ptr<const Caster> piece = find(value);
         if (!piece && _others && isOfLevels()) piece = _others->find(value);
         if (!piece) piece = make(drawable, value, geometry, casting);
@@ -122,7 +122,7 @@ private:
     }
 
     /// Nothing is copied as long as nothing differs.
-    void startOwnList() {
+    void startSelfDrawings() {
         if (!_changed) _met.assign(_known.begin(), _known.begin() + static_cast<std::ptrdiff_t>(_same));
         _changed = true;
     }
@@ -177,8 +177,8 @@ private:
         holdSources(drawable, piece->sources);
         casting.hold(drawable, piece->sources);
         if (!isKnown && (isOfLevels() || !casting.isWhole() || found.anyInvalid)) describe(*piece);
-        if (!casting.test && casting.ownDrawn && piece->triangles > 0) {
-            piece->cutOut = piece->ownDrawn = true;
+        if (!casting.test && casting.selfDrawn && piece->triangles > 0) {
+            piece->cutOut = piece->selfDrawn = true;
             piece->cutoutNode = nameAlong(getNodePath());
         }
         return piece;
@@ -193,7 +193,7 @@ private:
         piece.invalidTriangles = found->getInvalidTriangles();
         piece.invalidNode = found->getInvalidNode();
         piece.cutOut = !found->getCutouts().empty();
-        piece.ownDrawn = piece.cutOut && found->getCutouts().front().ownDrawn;
+        piece.selfDrawn = piece.cutOut && found->getCutouts().front().selfDrawn;
         piece.cutoutNode = found->getCutoutNode();
         piece.triangles = found->getTriangles().size() / 3;
         piece.bounds.init();
@@ -213,9 +213,9 @@ private:
     }
 
     const CasterList _none, &_known;
-    const Casters::OwnList _knownOwn;
+    const Casters::SelfDrawings _knownSelfDrawings;
     const std::string _knownLeftOut;
-    Casters::OwnList _own;
+    Casters::SelfDrawings _selfDrawings;
     const KnownCasters* const _others;
     CasterList _met;
     std::unordered_map<std::uint64_t, std::size_t> _places;
@@ -272,10 +272,10 @@ std::size_t rootOf(std::vector<std::size_t>& above, std::size_t piece) {
 
 } // namespace
 
-Casters::Casters(CasterList pieces, std::uint64_t fingerprintOfAll, std::uint64_t choiceOfAll, OwnList drawings,
+Casters::Casters(CasterList pieces, std::uint64_t fingerprintOfAll, std::uint64_t choiceOfAll, SelfDrawings drawings,
                  std::string leftOutOfAll)
     : list(std::move(pieces)),
-      own(std::move(drawings)),
+      selfDrawings(std::move(drawings)),
       fingerprint(fingerprintOfAll),
       choice(choiceOfAll),
       leftOut(std::move(leftOutOfAll)) {
@@ -297,8 +297,8 @@ osg::ref_ptr<const Casters> Casters::of(osg::Node& root, const Selection& caster
     if (known) known->startVisit();
     root.accept(visitor);
     if (before && !visitor.changed()) return before;
-    const osg::ref_ptr<Casters> met =
-        new Casters(visitor.take(), visitor.fingerprint(), visitor.choice(), visitor.takeOwn(), visitor.leftOut());
+    const osg::ref_ptr<Casters> met = new Casters(visitor.take(), visitor.fingerprint(), visitor.choice(),
+                                                  visitor.takeSelfDrawings(), visitor.leftOut());
     for (const auto& piece : met->list)
         if (known && piece->ofLevels) known->add(*piece);
     return met;

@@ -118,9 +118,9 @@ private:
 class Casters : public osg::Referenced {
 public:
     /// What only its own code or state can draw as it is, one for each drawable and path.
-    using OwnList = std::vector<osg::ref_ptr<const OwnDrawing>>;
+    using SelfDrawings = std::vector<osg::ref_ptr<const SelfDrawing>>;
     /// Sums up the pieces.
-    Casters(CasterList pieces, std::uint64_t fingerprint, std::uint64_t choice = 0, OwnList own = {},
+    Casters(CasterList pieces, std::uint64_t fingerprint, std::uint64_t choice = 0, SelfDrawings drawings = {},
             std::string leftOut = {});
 
     /// True if there is no triangle.
@@ -144,7 +144,7 @@ public:
     bool isRetired() const { return *_retired; }
 
     const CasterList list;           ///< In traversal order.
-    const OwnList own;               ///< What only its own drawing shows as it is, for maps. Traversal order.
+    const SelfDrawings selfDrawings; ///< What only its own drawing shows as it is, for maps. Traversal order.
     const std::uint64_t fingerprint; ///< Changes with any piece.
     const std::uint64_t choice;      ///< Stands for the drawables under LODs, wherever they are.
     osg::BoundingBoxd bounds;        ///< Bounds of all triangles, group frame. Invalid without triangles.

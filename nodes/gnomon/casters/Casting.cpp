@@ -345,16 +345,16 @@ Casting CastingJudge::of(const osg::NodePath& path, const osg::Drawable& drawabl
         if (side == Side::Gone) result.casts = false;
     }
     if (!result.casts) return result;
-    result.ownDrawn = found.discards;
+    result.selfDrawn = found.discards;
     const bool counts =
         found.test || (found.blends && (!found.programmed || found.late)); // a program's alpha may be any
     if (!counts) return result;
-    if (!found.test) result.ownFrom = _rule->opaqueFrom;
+    if (!found.test) result.opaqueFrom = _rule->opaqueFrom;
     const ColorAlpha colors =
         found.material ? ColorAlpha{std::clamp(*found.material, 0.0f, 1.0f)} : colorAlpha(drawable);
     if (found.programmed || found.unknown || found.discards || colors.unknown ||
         (found.texture && !AlphaTest::hasCoordinates(drawable))) {
-        result.ownDrawn = true;
+        result.selfDrawn = true;
         return result;
     }
     AlphaTest test;
@@ -376,7 +376,7 @@ Casting CastingJudge::of(const osg::NodePath& path, const osg::Drawable& drawabl
 
 void Casting::mix(const osg::Drawable& drawable, Fingerprint& into) const {
     if (restart) into.mix(std::uint64_t{*restart} << 1 | 1);
-    if (ownDrawn) into.mix(double{1.0f + ownFrom});
+    if (selfDrawn) into.mix(double{1.0f + opaqueFrom});
     for (const auto& [number, plane] : clips) {
         into.mix(std::uint64_t{number});
         for (int i = 0; i < 4; ++i) into.mix(plane[i]);

@@ -158,9 +158,9 @@ using NumberedPlane = std::pair<unsigned, osg::Vec4d>;
 /// - A ClipPlane of a state set, without a ClipNode, is taken as given in the drawable's own frame.
 struct Casting {
     bool casts = true;             ///< False if nothing of it does.
-    bool ownDrawn = false;         ///< Only drawing it tells which parts are clear. Each triangle may be in part.
-    float ownFrom = 0.0f;          ///< The alpha from which on it casts where it is drawn without a test. 0: all does.
-    std::optional<AlphaTest> test; ///< Which parts are clear. nullopt: none, or ownDrawn.
+    bool selfDrawn = false;        ///< Only drawing it tells which parts are clear. Each triangle may be in part.
+    float opaqueFrom = 0.0f;       ///< The alpha from which on it casts where it is drawn without a test. 0: all does.
+    std::optional<AlphaTest> test; ///< Which parts are clear. nullopt: none, or selfDrawn.
     std::vector<NumberedPlane> clips; ///< Planes that cut it, root frame.
     std::optional<unsigned> restart;  ///< Index that ends a primitive; ~0u: the largest of the list's type.
 

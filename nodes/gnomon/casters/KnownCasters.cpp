@@ -57,11 +57,11 @@ std::optional<PlacedMesh> KnownCasters::placed(const Caster& piece, const osg::V
     const glm::dmat4 groupFromLocal = toGlm(piece.groupFromLocal);
     const double longer = stretch(groupFromLocal);
     const glm::dmat4 fromMesh = glm::translate(groupFromLocal, toGlm(mesh->origin));
-    return PlacedMesh{mesh,          glm::translate(glm::dmat4(1.0), -toGlm(origin)) * fromMesh,
-                      true,          glm::determinant(glm::dmat3(fromMesh)) < 0.0,
-                      longer,        longer * mesh->rounding,
-                      piece.hiding,  piece.bounds,
-                      piece.ownDrawn};
+    return PlacedMesh{mesh,           glm::translate(glm::dmat4(1.0), -toGlm(origin)) * fromMesh,
+                      true,           glm::determinant(glm::dmat3(fromMesh)) < 0.0,
+                      longer,         longer * mesh->rounding,
+                      piece.hiding,   piece.bounds,
+                      piece.selfDrawn};
 }
 
 osg::BoundingBoxd KnownCasters::boundsOf(std::uint64_t geometry, const osg::Matrixd& groupFromLocal,

@@ -9,33 +9,25 @@
 namespace gnomon {
 namespace {
 
-/// Jobs that share a lens: what one view sees, another view that is laid over it must not take for its own.
-std::vector<Jobs> byView(const Jobs& jobs) {
-    std::vector<Jobs> views;
+/// Jobs that share a lens: what is seen through one, another that is laid over it must not take for its own.
+std::vector<Jobs> byLens(const Jobs& jobs) {
+    std::vector<Jobs> lenses;
     for (const ShadowJob* job : jobs) {
-        const auto same = [job](const Jobs& view) { return view.front()->isOfView(*job->projection); };
-        const auto view = std::find_if(views.begin(), views.end(), same);
-        (view == views.end() ? views.emplace_back() : *view).push_back(job);
+        const auto same = [job](const Jobs& lens) { return lens.front()->isOfLens(*job->projection); };
+        const auto lens = std::find_if(lenses.begin(), lenses.end(), same);
+        (lens == lenses.end() ? lenses.emplace_back() : *lens).push_back(job);
     }
-    return views;
+    return lenses;
 }
 
 } // namespace
 
 /// Unless it has a named receiver or something of another view lies over it.
 bool needsNoMarks(const ShadowJob& job, const std::vector<DrawnLeaf>& leaves) {
-    return !job.relight && !job.receiverNamed && job.mark->canDarken() && notOfView(job, leaves).empty();
+    return !job.relight && !job.receiverNamed && job.mark->canDarken && notOfLens(job, leaves).empty();
 }
 
-Compositor::Compositor(CompositorStage draw) : _draw(std::move(draw)), _lightBits(_draw.bits) {
-    if (_lightBits.size() > 1) {
-        const std::size_t lights = std::min(mostRelitLights, _draw.own - 1);
-        const auto scratch = _lightBits.begin() + static_cast<std::ptrdiff_t>(std::min(_lightBits.size() - 1, lights));
-        _scratch = *scratch;
-        _lightBits.erase(scratch);
-    }
-    _lightBits.resize(std::min({_lightBits.size(), mostRelitLights, _draw.own - 1}));
-}
+Compositor::Compositor(CompositorStage draw) : _draw(std::move(draw)), _marks(_draw, false) {}
 
 void Compositor::compose(const std::vector<ShadowJob>& jobs, const std::vector<osg::ref_ptr<ViewEffect>>& effects) {
     const auto draw = [&](ViewEffect::Turn turn) {
@@ -54,16 +46,16 @@ void Compositor::compose(const std::vector<ShadowJob>& jobs, const std::vector<o
     if (!relit.empty()) relightAny(relit, blended);
     draw(ViewEffect::Turn::BeforeBlending);
     for (const auto& [dark, group] : blended)
-        for (const Jobs& view : byView(group)) blendAny(view, dark);
+        for (const Jobs& ofLens : byLens(group)) blendAny(ofLens, dark);
     draw(ViewEffect::Turn::Last);
-    drawViews(jobs);
+    drawDebugViews(jobs);
 }
 
-void Compositor::drawViews(const std::vector<ShadowJob>& jobs) const {
+void Compositor::drawDebugViews(const std::vector<ShadowJob>& jobs) const {
     int drawn = 0;
     for (const ShadowJob& job : jobs)
-        if (job.mark->hasView())
-            _draw.pass(wholeScreen, [&](ScreenPass& screen) { job.mark->drawView(screen, drawn++); });
+        if (job.mark->hasDebugView)
+            _draw.pass(wholeScreen, [&](ScreenPass& screen) { job.mark->drawDebugView(screen, drawn++); });
 }
 
 void Compositor::blendAny(const Jobs& jobs, float dark) {
@@ -120,7 +112,7 @@ bool Compositor::areFading(const Jobs& jobs) const {
 /// A leaf with a stencil test of its own cannot be drawn again under ours, nor can one that blends with what is not known.
 void Compositor::blendInstead(const Jobs& jobs, std::map<float, Jobs>& blended, const std::string& cause) {
     for (const ShadowJob* job : jobs) {
-        if (job->mark->relightsOnly()) continue;
+        if (job->mark->relightsOnly) continue;
         if (job->dark < 1.0f) blended[job->dark].push_back(job);
         job->report(cause);
     }
@@ -138,11 +130,11 @@ bool Compositor::composeDirectly(const Jobs& wanted) {
     const auto other = [&job](const ReplayedLeaf& leaf) { return !job.isNamed(leaf.entry.leaf); };
     const auto unfit = [&](const ReplayedLeaf& leaf) { return other(leaf) || !plain(*leaf.entry.leaf); };
     if (relit && std::any_of(leaves.begin(), leaves.end(), unfit)) return false;
-    if (!relit && (isModeOn(_draw.leaves, GL_COLOR_LOGIC_OP) || !notOfView(job, _draw.leaves).empty())) return false;
+    if (!relit && (isModeOn(_draw.leaves, GL_COLOR_LOGIC_OP) || !notOfLens(job, _draw.leaves).empty())) return false;
     leaves.erase(std::remove_if(leaves.begin(), leaves.end(), other), leaves.end());
-    const unsigned bit = _lightBits.front();
+    const unsigned bit = _marks.firstBit();
     _draw.clearLeftovers(bit);
-    StencilMarks(_draw, 0).addUngated(job, bit);
+    _marks.addUngated(job, bit);
     LeafReplay::Overlay overlay;
     overlay.stencilFunction = GL_NOTEQUAL;
     overlay.test = overlay.write = bit; // back to 0 where drawn: a pixel loses its light once
@@ -161,60 +153,24 @@ bool Compositor::composeDirectly(const Jobs& wanted) {
 }
 
 void Compositor::relight(const Jobs& wanted) {
-    const std::map<int, unsigned> bitOf = assignBits(wanted);
-    Jobs jobs;
-    std::copy_if(wanted.begin(), wanted.end(), std::back_inserter(jobs),
-                 [&bitOf](const ShadowJob* job) { return bitOf.count(job->light) > 0; });
-    unsigned lightBits = 0;
-    for (const auto& entry : bitOf) lightBits |= entry.second;
-    const ScreenRect bounds = boundsOf(jobs);
-    mark(jobs, bitOf);
+    const MarkedLights lights = _marks.lightsOf(wanted);
+    const unsigned lightBits = bitsOf(lights);
+    const ScreenRect bounds = boundsOf(jobsOf(lights));
+    _marks.mark(lights);
     resetMarked(lightBits, bounds);
-    for (unsigned subset = 1; subset < (1u << bitOf.size()); ++subset) {
-        const Combination combination = combine(jobs, bitOf, subset);
-        if (!isEmpty(combination.bounds)) replay(combination, lightBits);
-    }
+    for (unsigned lost = 1; lost < (1u << lights.size()); ++lost) replay(partOf(lights, lost), lightBits);
     _draw.clear(lightBits, bounds);
 }
 
-std::map<int, unsigned> Compositor::assignBits(const Jobs& jobs) const {
-    std::map<int, unsigned> bitOf;
-    for (const ShadowJob* job : jobs) {
-        if (bitOf.count(job->light)) continue;
-        const std::size_t used = bitOf.size();
-        if (used < _lightBits.size())
-            bitOf[job->light] = _lightBits[used];
-        else
-            job->report(
-                "light " + std::to_string(job->light) + " casts no shadow, because at most " + std::to_string(used) +
-                " lights can be relit in this view. Set BLEND (composite=blend), which takes any number of lights.");
-    }
-    return bitOf;
-}
-
-Compositor::Combination Compositor::combine(const Jobs& jobs, const std::map<int, unsigned>& bitOf,
-                                            unsigned subset) const {
-    Combination combination{0, {}, wholeScreen};
-    unsigned index = 0;
-    for (const auto& [number, bit] : bitOf) {
-        if (!(subset & (1u << index++))) continue;
-        Jobs ofLight;
-        std::copy_if(jobs.begin(), jobs.end(), std::back_inserter(ofLight),
-                     [light = number](const ShadowJob* job) { return job->light == light; });
-        combination.bits |= bit;
-        combination.bounds = common(combination.bounds, boundsOf(ofLight));
-        combination.jobs.insert(combination.jobs.end(), ofLight.begin(), ofLight.end());
-    }
-    return combination;
-}
-
-void Compositor::replay(const Combination& combination, unsigned lightBits) {
+/// Draws pixels anew that lose these lights and no others.
+void Compositor::replay(const MarkedLights& dark, unsigned lightBits) {
     LeafReplay::Overlay overlay;
     overlay.stencilFunction = GL_EQUAL;
-    overlay.reference = combination.bits;
+    overlay.reference = bitsOf(dark);
     overlay.test = lightBits;
-    overlay.bounds = combination.bounds;
-    replay(leavesToReplay(_draw, combination.jobs, combination.bounds), overlay, combination.jobs);
+    overlay.bounds = commonBounds(dark);
+    const Jobs jobs = jobsOf(dark);
+    if (!isEmpty(overlay.bounds)) replay(leavesToReplay(_draw, jobs, overlay.bounds), overlay, jobs);
 }
 
 void Compositor::replay(const std::vector<ReplayedLeaf>& leaves, LeafReplay::Overlay overlay, const Jobs& jobs) {
@@ -235,29 +191,17 @@ void Compositor::replay(const std::vector<ReplayedLeaf>& leaves, LeafReplay::Ove
 }
 
 void Compositor::blend(const Jobs& jobs, float dark) {
-    const unsigned bit = _lightBits.front();
+    const unsigned bit = _marks.firstBit();
     const ScreenRect bounds = boundsOf(jobs);
-    std::map<int, unsigned> bitOf;
-    for (const ShadowJob* job : jobs) bitOf[job->light] = bit;
-    mark(jobs, bitOf);
-    for (const ShadowJob* job : jobs) writeWhereSeen(_draw, notOfView(*job, _draw.leaves), 0, bit, bounds);
+    MarkedLight all;
+    all.hard = jobs;
+    all.hardBit = bit;
+    _marks.mark({all});
+    for (const ShadowJob* job : jobs) writeWhereSeen(_draw, notOfLens(*job, _draw.leaves), 0, bit, bounds);
     _draw.pass(bounds, [&](ScreenPass& screen) {
         screen.takeStencil(bit, bit);
         screen.multiplyColor(dark);
     });
-}
-
-void Compositor::mark(const Jobs& jobs, const std::map<int, unsigned>& bitOf) const {
-    unsigned used = _scratch;
-    for (const auto& entry : bitOf) used |= entry.second;
-    _draw.clearLeftovers(used);
-    const StencilMarks marks(_draw, _scratch);
-    unsigned marked = 0;
-    for (const ShadowJob* job : jobs) {
-        const unsigned bit = bitOf.at(job->light);
-        marks.add(*job, bit, !(marked & bit));
-        marked |= bit;
-    }
 }
 
 void Compositor::writeBackground(ScreenPass& screen) const {

@@ -2,7 +2,6 @@
 #pragma once
 #include <gnomon/compositor/CompositorStage.h>
 #include <gnomon/compositor/LeafReplay.h>
-#include <gnomon/compositor/ReplaySelection.h>
 #include <gnomon/compositor/StencilMarks.h>
 #include <gnomon/compositor/ViewEffect.h>
 
@@ -24,36 +23,25 @@ public:
     void compose(const std::vector<ShadowJob>& jobs, const std::vector<osg::ref_ptr<ViewEffect>>& effects);
 
 private:
-    /// Jobs of the lights that are dark in one relight pass, and the bits that say so.
-    struct Combination {
-        unsigned bits;
-        Jobs jobs;
-        ScreenRect bounds;
-    };
-
     bool areFading(const Jobs& jobs) const;
     void relightAny(const Jobs& jobs, std::map<float, Jobs>& blended);
     bool composeDirectly(const Jobs& jobs);
     void relight(const Jobs& wanted);
     static void blendInstead(const Jobs& jobs, std::map<float, Jobs>& blended, const std::string& cause);
-    void drawViews(const std::vector<ShadowJob>& jobs) const;
+    void drawDebugViews(const std::vector<ShadowJob>& jobs) const;
     void blendAny(const Jobs& jobs, float dark);
     bool darkenDirectly(const Jobs& jobs, float dark) const;
     void blend(const Jobs& jobs, float dark);
 
-    std::map<int, unsigned> assignBits(const Jobs& jobs) const;
-    Combination combine(const Jobs& jobs, const std::map<int, unsigned>& bitOf, unsigned subset) const;
-    void replay(const Combination& combination, unsigned lightBits);
+    void replay(const MarkedLights& dark, unsigned lightBits);
     void replay(const std::vector<ReplayedLeaf>& leaves, LeafReplay::Overlay overlay, const Jobs& jobs);
 
-    void mark(const Jobs& jobs, const std::map<int, unsigned>& bitOf) const;
     void resetMarked(unsigned where, const ScreenRect& bounds) const;
     void writeBackground(ScreenPass& screen) const;
     bool isBackgroundKnown() const;
 
     const CompositorStage _draw;
-    std::vector<unsigned> _lightBits;
-    unsigned _scratch = 0;
+    const StencilMarks _marks; ///< hard.
 };
 
 } // namespace gnomon

@@ -9,13 +9,13 @@ namespace gnomon {
 namespace {
 
 /// The lowest bits, one beside the other from bit 0 on, for OpenGL counts from there; else any single one.
-unsigned countersAmong(const std::vector<unsigned>& bits, std::size_t own) {
+unsigned countersAmong(const std::vector<unsigned>& bits, std::size_t taken) {
     unsigned result = 0;
-    for (std::size_t i = bits.size(); i-- > own;) {
+    for (std::size_t i = bits.size(); i-- > taken;) {
         if (bits[i] != result + 1) break;
         result |= bits[i];
     }
-    return result || bits.size() <= own ? result : bits.back();
+    return result || bits.size() <= taken ? result : bits.back();
 }
 
 } // namespace
@@ -28,9 +28,8 @@ CompositorStage::CompositorStage(osg::RenderInfo& info, osgUtil::RenderStage& of
       leaves(std::move(drawn.leaves)),
       options(drawn.options),
       materials(kept),
-      clean(drawn.clean),
-      pattern(StencilPattern::read(state)),
-      own(drawn.own) {
+      stencilIsZero(drawn.stencilIsZero),
+      pattern(StencilPattern::read(state)) {
     GLint stencil = 0, alpha = 0;
     glGetIntegerv(GL_STENCIL_BITS, &stencil);
     glGetIntegerv(GL_ALPHA_BITS, &alpha);
@@ -43,7 +42,7 @@ CompositorStage::CompositorStage(osg::RenderInfo& info, osgUtil::RenderStage& of
         vastBit = bits.front();
         bits.erase(bits.begin());
     }
-    counters = countersAmong(bits, own);
+    counters = countersAmong(bits, drawn.bitsOfLights);
 }
 
 Channels CompositorStage::channels() const {
@@ -56,7 +55,7 @@ void CompositorStage::clear(unsigned stencil, const ScreenRect& bounds) const {
 }
 
 void CompositorStage::clearLeftovers(unsigned stencil) const {
-    if (!clean) clear(stencil | counters, wholeScreen);
+    if (!stencilIsZero) clear(stencil | counters, wholeScreen);
 }
 
 void popLeafState(osg::State& state, osgUtil::RenderLeaf*& previous) {

@@ -22,8 +22,8 @@ class MaterialHistory;
 struct DrawnStage {
     std::vector<DrawnLeaf> leaves; ///< that it has drawn before, in order.
     CompositorOptions options;
-    bool clean;      ///< the stencil buffer is known to be zero.
-    std::size_t own; ///< how many stencil bits the compositor takes for itself, 2 to 8; others are counters.
+    bool stencilIsZero;       ///< it is known to be.
+    std::size_t bitsOfLights; ///< how many stencil bits marks take, 2 to 8; others are counters.
 };
 
 /// One stage while the compositor draws in it: what was drawn before, and what its framebuffer offers.
@@ -56,12 +56,11 @@ public:
     const std::vector<DrawnLeaf> leaves;
     const CompositorOptions options;
     MaterialHistory& materials; ///< of the leaves.
-    const bool clean;
+    const bool stencilIsZero;
     const StencilPattern pattern; ///< its bit is not among `bits`.
     bool hasStencil = false, hasAlpha = false;
     std::vector<unsigned> bits; ///< of the stencil buffer, those that are free, the highest first.
-    const std::size_t own;      ///< how many of them, from the first on, are the compositor's.
-    unsigned counters = 0;      ///< some of the others, see ScreenPass::counters(); 0 if there are none.
+    unsigned counters = 0;      ///< some of them, see ScreenPass::counters(); 0 if there are none.
     std::vector<VastLeaf> vast; ///< see VastLeaf; TrueDepths puts them right.
     unsigned vastBit = 0;       ///< for it; not among `bits`.
 

@@ -46,7 +46,7 @@ TargetNeeds needsOf(const std::vector<ShadowJob>& jobs) {
         const bool known = !lights.insert(job.relight ? job.light : blended).second;
         together = together || known || job.receiverNamed;
         needs.alpha = needs.alpha || job.fades();
-        const ScreenRect& place = job.mark->hasView() ? wholeScreen : job.mark->screenBounds;
+        const ScreenRect& place = job.mark->hasDebugView ? wholeScreen : job.mark->screenBounds;
         bounds = bounds ? united(*bounds, place) : place;
     }
     if (bounds) needs.bounds = *bounds;

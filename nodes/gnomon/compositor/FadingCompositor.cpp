@@ -1,123 +1,28 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/compositor/FadingCompositor.h>
 #include <gnomon/compositor/KeptByStage.h>
-#include <gnomon/compositor/LeafReplay.h>
 #include <gnomon/compositor/ShadowJob.h>
-#include <gnomon/compositor/TrueDepths.h>
 
 #include <algorithm>
 
 namespace gnomon {
-namespace {
 
-template <typename Lights>
-unsigned bitsOf(const Lights& lights) {
-    unsigned bits = 0;
-    for (const auto& light : lights) bits |= light.bits();
-    return bits;
-}
-
-template <typename Lights>
-Jobs jobsOf(const Lights& lights) {
-    Jobs jobs;
-    for (const auto& light : lights) {
-        jobs.insert(jobs.end(), light.hard.begin(), light.hard.end());
-        if (light.fading) jobs.push_back(light.fading);
-    }
-    return jobs;
-}
-
-void report(const Jobs& jobs, const std::string& cause) {
-    for (const ShadowJob* job : jobs) job->report(cause);
-}
-
-} // namespace
-
-FadingCompositor::FadingCompositor(const CompositorStage& draw) : _draw(draw) {
-    for (const unsigned bit : draw.bits)
-        if (!(bit & draw.counters)) _lightBits.push_back(bit);
-    const auto take = [this] {
-        if (_lightBits.size() < 2) return 0u;
-        const unsigned bit = _lightBits.back();
-        _lightBits.pop_back();
-        return bit;
-    };
-    _scratch = take();
-    _faded = take();
-}
+FadingCompositor::FadingCompositor(const CompositorStage& draw) : _draw(draw), _marks(draw, true) {}
 
 void FadingCompositor::relight(const Jobs& wanted) const {
-    const Lights lights = lightsOf(wanted);
+    const Lights lights = _marks.lightsOf(wanted);
     const Jobs jobs = jobsOf(lights);
     if (jobs.empty()) return;
     const ScreenRect bounds = boundsOf(jobs);
-    const bool weighsAtOnce = lights.size() == 1 && lights.front().isFadingOnly();
+    const bool weighsAtOnce = lights.size() == 1 && lights.front().hard.empty();
     if (weighsAtOnce) _draw.pass(bounds, [](ScreenPass& screen) { screen.setAlpha(1.0f); });
-    mark(lights, weighsAtOnce ? StencilMarks::Pixels::Weighed : StencilMarks::Pixels::Touched);
+    _marks.mark(lights, weighsAtOnce ? StencilMarks::Pixels::Weighed : StencilMarks::Pixels::Touched);
     Leaves leaves = leavesToReplay(_draw, jobs, bounds);
     const Leaves aside = setAside(leaves, jobs);
     if (!aside.empty()) darkenAside(aside, lights, jobs);
     mix(leaves, lights, jobs, weighsAtOnce && aside.empty());
     _draw.pass(bounds, [](ScreenPass& screen) { screen.setAlpha(1.0f); });
     _draw.clear(bitsOf(lights), bounds);
-}
-
-FadingCompositor::Lights FadingCompositor::lightsOf(const Jobs& wanted) const {
-    Lights lights;
-    for (const ShadowJob* job : wanted) {
-        auto light = std::find_if(lights.begin(), lights.end(),
-                                  [job](const Light& known) { return known.number == job->light; });
-        if (light == lights.end()) {
-            lights.emplace_back().number = job->light;
-            light = lights.end() - 1;
-        }
-        if (!job->fades())
-            light->hard.push_back(job);
-        else if (!light->fading)
-            light->fading = job;
-        else {
-            light->hard.push_back(job);
-            report({job}, "another technique has soft edges for the same light, so these edges are hard. Use one "
-                          "technique with soft edges for each light.");
-        }
-    }
-    for (; lights.size() > mostRelitLights; lights.pop_back())
-        report(jobsOf(Lights{lights.back()}),
-               "light " + std::to_string(lights.back().number) + " casts no shadow, because at most " +
-                   std::to_string(mostRelitLights) +
-                   " lights can be relit in this view. Set BLEND (composite=blend), which takes any number of lights.");
-    std::vector<unsigned> unused = _lightBits;
-    lights.erase(std::remove_if(lights.begin(), lights.end(), [&](Light& light) { return !assignBits(light, unused); }),
-                 lights.end());
-    return lights;
-}
-
-bool FadingCompositor::assignBits(Light& light, std::vector<unsigned>& unused) const {
-    const std::size_t needed = (light.hard.empty() ? 0u : 1u) + (light.fading ? 1u : 0u);
-    if (unused.size() < needed) {
-        report(jobsOf(Lights{light}), "light " + std::to_string(light.number) +
-                                          " casts no shadow, because too few stencil bits are left. Leave more out of "
-                                          "CompositorOptions::reservedStencilBits, or set BLEND (composite=blend), "
-                                          "which takes any number of lights.");
-        return false;
-    }
-    const auto take = [&unused] {
-        const unsigned bit = unused.front();
-        unused.erase(unused.begin());
-        return bit;
-    };
-    if (!light.hard.empty()) light.hardBit = take();
-    if (light.fading) light.fadingBit = take();
-    return true;
-}
-
-void FadingCompositor::mark(const Lights& lights, StencilMarks::Pixels pixels) const {
-    const StencilMarks marks(_draw, _scratch);
-    _draw.clearLeftovers(bitsOf(lights) | _scratch | _faded);
-    for (const Light& light : lights) {
-        for (const ShadowJob* job : light.hard) marks.add(*job, light.hardBit, job == light.hard.front());
-        if (light.fading) marks.add(*light.fading, light.fadingBit, true, pixels);
-    }
 }
 
 /// Takes out of `leaves` those that cannot be mixed. What receives nothing and is not drawn over others stays as it is.
@@ -128,8 +33,8 @@ FadingCompositor::Leaves FadingCompositor::setAside(Leaves& leaves, const Jobs& 
     OpaqueTest opaque;
     Leaves aside, mixed;
     for (const ReplayedLeaf& leaf : leaves) {
-        const auto ofView = [&leaf](const ShadowJob* job) { return job->isOfView(*leaf.entry.leaf); };
-        const bool laidOver = leaf.lost == 0 && !std::all_of(jobs.begin(), jobs.end(), ofView);
+        const auto ofLens = [&leaf](const ShadowJob* job) { return job->isOfLens(*leaf.entry.leaf); };
+        const bool laidOver = leaf.lost == 0 && !std::all_of(jobs.begin(), jobs.end(), ofLens);
         const bool hides = opaque(*leaf.entry.leaf) || (leaf.lost && jobs.front()->hidingOnly);
         if (!hides || laidOver)
             aside.push_back(leaf);
@@ -144,26 +49,28 @@ FadingCompositor::Leaves FadingCompositor::setAside(Leaves& leaves, const Jobs& 
 void FadingCompositor::darkenAside(const Leaves& aside, const Lights& lights, const Jobs& jobs) const {
     const ScreenRect bounds = boundsOf(jobs);
     Leaves kept, darkened;
-    for (const ReplayedLeaf& leaf : aside) (leaf.lost && _faded ? darkened : kept).push_back(leaf);
+    const unsigned faded = _marks.fadedBit();
+    for (const ReplayedLeaf& leaf : aside) (leaf.lost && faded ? darkened : kept).push_back(leaf);
     if (!kept.empty()) writeWhereSeen(_draw, kept, 0, bitsOf(lights), bounds);
     if (darkened.empty()) return;
-    writeWhereSeen(_draw, darkened, _faded, _faded, bounds);
+    writeWhereSeen(_draw, darkened, faded, faded, bounds);
     multiplyByFactor(lights, jobs.front()->dark, bounds);
     if (!keptBy<StageVerdict>(_draw.stage).askToName()) return;
     for (const ReplayedLeaf& leaf : darkened)
-        report(jobs,
-               "no part of a light can be taken from '" + nameOf(*leaf.entry.leaf) +
-                   "', because it is unlit, blends, writes no depth or its program does not read gl_LightSource. Its "
-                   "colour is multiplied by setDark() (dark=) instead. Light it with OpenGL, or leave it out of the "
-                   "receiver.");
+        reportAll(
+            jobs,
+            "no part of a light can be taken from '" + nameOf(*leaf.entry.leaf) +
+                "', because it is unlit, blends, writes no depth or its program does not read gl_LightSource. Its "
+                "colour is multiplied by setDark() (dark=) instead. Light it with OpenGL, or leave it out of the "
+                "receiver.");
 }
 
 void FadingCompositor::multiplyByFactor(const Lights& lights, float factor, const ScreenRect& bounds) const {
     weigh(lights, 0, bounds);
     _draw.pass(bounds, [&](ScreenPass& screen) {
-        screen.stencilAny(_faded);
+        screen.stencilAny(_marks.fadedBit());
         screen.fadeAlpha(factor);
-        screen.takeStencil(_faded, bitsOf(lights) | _faded);
+        screen.takeStencil(_marks.fadedBit(), bitsOf(lights) | _marks.fadedBit());
         screen.multiplyColorByAlpha();
     });
 }
@@ -190,8 +97,9 @@ void FadingCompositor::replay(const Leaves& leaves, const Lights& lights, unsign
                               const Jobs& jobs) const {
     LeafReplay::Overlay overlay;
     overlay.bounds = bounds;
-    for (std::size_t i = 0; i < lights.size(); ++i)
-        if ((lost & (1u << i)) && !lights[i].isMixed()) overlay.test |= lights[i].bits();
+    const Lights dark = partOf(lights, lost);
+    for (const MarkedLight& light : dark)
+        if (!light.isMixed()) overlay.test |= light.bits();
     overlay.stencilFunction =
         overlay.test ? GL_EQUAL : GL_NOTEQUAL; // every light of `lost`, as far as one test can tell
     overlay.reference = overlay.test;
@@ -201,22 +109,18 @@ void FadingCompositor::replay(const Leaves& leaves, const Lights& lights, unsign
     overlay.lightUniforms = lightUniformsOf(jobs);
     LeafReplay replay(_draw, overlay);
     unsigned lostNumbers = 0;
-    for (std::size_t i = 0; i < lights.size(); ++i)
-        if (lost & (1u << i)) lostNumbers |= 1u << lights[i].number;
+    for (const MarkedLight& light : dark) lostNumbers |= 1u << light.number;
     TouchTest touches(bounds);
     for (const ReplayedLeaf& leaf : leaves)
-        if (!_draw.options.filter || touches(*leaf.entry.leaf)) replay.draw(leaf.entry, leaf.lost & lostNumbers);
+        if (!_draw.options.skipsUntouched || touches(*leaf.entry.leaf))
+            replay.draw(leaf.entry, leaf.lost & lostNumbers);
 }
 
 /// Where pixels can lose all of these lights; with a light of two bits in use, which one stencil test cannot ask for,
 /// where they can lose any of all lights.
 ScreenRect FadingCompositor::boundsWithout(const Lights& lights, unsigned lost) const {
-    if (std::any_of(lights.begin(), lights.end(), [](const Light& light) { return light.isMixed(); }))
-        return boundsOf(jobsOf(lights));
-    ScreenRect bounds = wholeScreen;
-    for (std::size_t i = 0; i < lights.size(); ++i)
-        if (lost & (1u << i)) bounds = common(bounds, boundsOf(jobsOf(Lights{lights[i]})));
-    return bounds;
+    const bool mixed = std::any_of(lights.begin(), lights.end(), [](const auto& light) { return light.isMixed(); });
+    return mixed ? boundsOf(jobsOf(lights)) : commonBounds(partOf(lights, lost));
 }
 
 /// Alpha becomes the share of each pixel that sees all lights but those of `lost`.
@@ -228,7 +132,7 @@ void FadingCompositor::weigh(const Lights& lights, unsigned lost, const ScreenRe
     });
 }
 
-void FadingCompositor::weighOne(const Light& light, bool lost, ScreenPass& screen) const {
+void FadingCompositor::weighOne(const MarkedLight& light, bool lost, ScreenPass& screen) const {
     if (light.fading) {
         screen.stencilEqual(light.fadingBit, light.bits(), 0);
         multiplyShare(*light.fading, lost, screen);
@@ -248,11 +152,10 @@ void FadingCompositor::multiplyShare(const ShadowJob& job, bool blocked, ScreenP
 
 /// Multiplies alpha by the job's share.
 void FadingCompositor::addBlended(const ShadowJob& job, unsigned bit) const {
-    const StencilMarks marks(_draw, _scratch);
-    const Leaves others = notOfView(job, _draw.leaves);
+    const Leaves others = notOfLens(job, _draw.leaves);
     if (job.fades() && !job.receiverNamed && others.empty())
-        return marks.add(job, bit, true, StencilMarks::Pixels::Weighed);
-    marks.add(job, bit, true, StencilMarks::Pixels::Touched);
+        return _marks.add(job, bit, true, StencilMarks::Pixels::Weighed);
+    _marks.add(job, bit, true, StencilMarks::Pixels::Touched);
     writeWhereSeen(_draw, others, 0, bit, job.mark->screenBounds);
     const TrueDepths depths(_draw, job.mark->screenBounds);
     _draw.pass(job.mark->screenBounds, [&](ScreenPass& screen) {
@@ -266,8 +169,8 @@ void FadingCompositor::addBlended(const ShadowJob& job, unsigned bit) const {
 
 void FadingCompositor::blend(const Jobs& jobs, float dark) const {
     const ScreenRect bounds = boundsOf(jobs);
-    const unsigned bit = _lightBits.front();
-    _draw.clearLeftovers(bit | _scratch);
+    const unsigned bit = _marks.firstBit();
+    _marks.clearLeftovers(bit);
     _draw.pass(bounds, [](ScreenPass& screen) { screen.setAlpha(1.0f); });
     for (const ShadowJob* job : jobs) {
         addBlended(*job, bit);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/compositor/CompositorStage.h>
-#include <gnomon/compositor/ReplaySelection.h>
+#include <gnomon/compositor/LeafReplay.h>
 #include <gnomon/compositor/StencilMarks.h>
 
 #include <vector>
@@ -22,22 +22,9 @@ public:
     void blend(const Jobs& jobs, float dark) const;
 
 private:
-    /// The jobs of one light. Hard marks and touched pixels have a bit each.
-    struct Light {
-        int number = 0;
-        Jobs hard;
-        const ShadowJob* fading = nullptr;
-        unsigned hardBit = 0, fadingBit = 0;
-        unsigned bits() const { return hardBit | fadingBit; }
-        bool isMixed() const { return hardBit && fadingBit; }
-        bool isFadingOnly() const { return fading && hard.empty(); }
-    };
-    using Lights = std::vector<Light>;
+    using Lights = MarkedLights;
     using Leaves = std::vector<ReplayedLeaf>;
 
-    Lights lightsOf(const Jobs& wanted) const;
-    bool assignBits(Light& light, std::vector<unsigned>& unused) const;
-    void mark(const Lights& lights, StencilMarks::Pixels pixels) const;
     Leaves setAside(Leaves& leaves, const Jobs& jobs) const;
     void darkenAside(const Leaves& aside, const Lights& lights, const Jobs& jobs) const;
     void multiplyByFactor(const Lights& lights, float factor, const ScreenRect& bounds) const;
@@ -47,12 +34,11 @@ private:
     ScreenRect boundsWithout(const Lights& lights, unsigned lost) const;
     void addBlended(const ShadowJob& job, unsigned bit) const;
     void weigh(const Lights& lights, unsigned lost, const ScreenRect& bounds) const;
-    void weighOne(const Light& light, bool lost, ScreenPass& screen) const;
+    void weighOne(const MarkedLight& light, bool lost, ScreenPass& screen) const;
     void multiplyShare(const ShadowJob& job, bool blocked, ScreenPass& screen) const;
 
     const CompositorStage& _draw;
-    std::vector<unsigned> _lightBits;
-    unsigned _scratch = 0, _faded = 0;
+    const StencilMarks _marks;
 };
 
 } // namespace gnomon

@@ -12,6 +12,7 @@
 #include <osg/VertexProgram>
 #include <osgUtil/StateGraph>
 
+#include <algorithm>
 #include <array>
 #include <string>
 
@@ -122,6 +123,32 @@ void restoreColors(const osg::State& state, int number) {
     setColors(number, light ? light->getDiffuse() : fallback, light ? light->getSpecular() : fallback);
 }
 
+bool isReceiver(const std::vector<const ShadowJob*>& jobs, const osgUtil::RenderLeaf* leaf) {
+    return std::any_of(jobs.begin(), jobs.end(), [leaf](const ShadowJob* job) { return job->isNamed(leaf); });
+}
+
+unsigned lightsLostBy(const osgUtil::RenderLeaf* leaf, const std::vector<const ShadowJob*>& jobs) {
+    unsigned lost = 0;
+    for (const ShadowJob* job : jobs)
+        if (job->isReceiver(*leaf)) lost |= 1u << job->light;
+    return lost;
+}
+
+/// Index of the last receiver, if only receivers and what is drawn over or before them can show where marks are.
+/// The number of leaves if that cannot be told.
+std::size_t lastReceiver(const std::vector<DrawnLeaf>& leaves, const std::vector<const ShadowJob*>& jobs,
+                         PlainTest& plain) {
+    if (std::any_of(jobs.begin(), jobs.end(), [](const ShadowJob* job) { return !job->receiverNamed; }))
+        return leaves.size();
+    std::size_t last = 0;
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+        if (!isReceiver(jobs, leaves[i].leaf)) continue;
+        if (!plain(*leaves[i].leaf)) return leaves.size();
+        last = i;
+    }
+    return last;
+}
+
 } // namespace
 
 bool ProgramLightUse::canLose(unsigned lost) {
@@ -167,7 +194,7 @@ void ProgramLightUse::restore() {
 }
 
 LeafReplay::LeafReplay(const CompositorStage& draw, const Overlay& overlay)
-    : _filter(draw.options.filter),
+    : _skipsUntouched(draw.options.skipsUntouched),
       _pattern(draw.pattern),
       _renderInfo(draw.renderInfo),
       _state(draw.state),
@@ -227,7 +254,7 @@ void LeafReplay::apply(const DrawnLeaf& entry) {
 /// Programs may move vertices to where no cluster's box is; a restarted strip's corners do not alternate from its start.
 bool LeafReplay::canDrawClusters(const osgUtil::RenderLeaf& leaf, const osg::Geometry& geometry) {
     constexpr GLenum vertexProgram = 0x8620, restart = 0x8F9D, restartFixedIndex = 0x8D69;
-    return _filter && _filled(leaf) && !_state.getLastAppliedProgramObject() &&
+    return _skipsUntouched && _filled(leaf) && !_state.getLastAppliedProgramObject() &&
            !_state.getLastAppliedMode(vertexProgram) && !_state.getLastAppliedMode(restart) &&
            !_state.getLastAppliedMode(restartFixedIndex) &&
            !_state.useVertexArrayObject(geometry.getUseVertexArrayObject());
@@ -377,6 +404,38 @@ void writeWhereSeen(const CompositorStage& draw, const std::vector<ReplayedLeaf>
         for (const ReplayedLeaf& leaf : leaves)
             if (opaque(*leaf.entry.leaf) == equal) replay.draw(leaf.entry);
     }
+}
+
+std::vector<ReplayedLeaf> notOfLens(const ShadowJob& job, const std::vector<DrawnLeaf>& leaves) {
+    TouchTest touches(job.mark->screenBounds);
+    std::vector<ReplayedLeaf> result;
+    for (const DrawnLeaf& entry : leaves)
+        if (!job.isOfLens(*entry.leaf) && touches(*entry.leaf)) result.push_back({entry, 0});
+    return result;
+}
+
+std::vector<ReplayedLeaf> leavesToReplay(const CompositorStage& draw, const std::vector<const ShadowJob*>& jobs,
+                                         const ScreenRect& bounds) {
+    const std::vector<DrawnLeaf>& leaves = draw.leaves;
+    const bool skips = draw.options.skipsUntouched;
+    PlainTest plain;
+    TouchTest touches(bounds);
+    const std::size_t last = skips ? lastReceiver(leaves, jobs, plain) : leaves.size();
+    std::vector<ReplayedLeaf> result;
+    const DrawnLeaf* selfDrawn = nullptr; // draws itself and is left out: it may have set the colour of what has none
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+        const osgUtil::RenderLeaf& leaf = *leaves[i].leaf;
+        if (i > last && plain(leaf)) continue;
+        const osg::Geometry* geometry = leaf._drawable->asGeometry();
+        const bool replayed = !skips || touches(leaf);
+        if (selfDrawn && replayed && geometry && !geometry->getColorArray()) {
+            result.push_back({*selfDrawn, 0});
+            selfDrawn = nullptr;
+        }
+        if (replayed) result.push_back({leaves[i], lightsLostBy(&leaf, jobs)});
+        if (!geometry) selfDrawn = replayed ? nullptr : &leaves[i];
+    }
+    return result;
 }
 
 } // namespace gnomon

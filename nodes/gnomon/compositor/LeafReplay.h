@@ -2,7 +2,6 @@
 #pragma once
 #include <gnomon/LightUniform.h>
 #include <gnomon/compositor/CompositorStage.h>
-#include <gnomon/compositor/ReplaySelection.h>
 #include <gnomon/compositor/ShadowJob.h>
 #include <gnomon/geometry/ScreenBounds.h>
 
@@ -46,6 +45,12 @@ private:
     const std::vector<LightUniform>& _uniforms;
     std::map<const Program*, bool> _readsColors;
     std::vector<DarkUniform> _changed;
+};
+
+/// A leaf to be drawn again, and the lights (bit i: light i) that it loses.
+struct ReplayedLeaf {
+    DrawnLeaf entry;
+    unsigned lost;
 };
 
 /// Draws render leaves of the frame once more, with what the compositor wants of stencil, depth and lights laid over
@@ -119,7 +124,7 @@ private:
     void drawOnce(const osgUtil::RenderLeaf& leaf);
     void drawFaded(const osgUtil::RenderLeaf& leaf);
 
-    const bool _filter;
+    const bool _skipsUntouched;
     const StencilPattern _pattern;
     osg::RenderInfo& _renderInfo;
     osg::State& _state;
@@ -138,5 +143,16 @@ private:
 /// pass their own test.
 void writeWhereSeen(const CompositorStage& draw, const std::vector<ReplayedLeaf>& leaves, unsigned reference,
                     unsigned write, const ScreenRect& bounds);
+
+/// Which leaves must be drawn again so that marked pixels get exactly what a full redraw would give them.
+///
+/// Left out: leaves whose screen bounds miss `bounds`. If every job names its receiver, marks lie only where a receiver
+/// is what one sees; then a plain leaf (see PlainTest) drawn after the last receiver cannot show there and is left out
+/// too.
+std::vector<ReplayedLeaf> leavesToReplay(const CompositorStage& draw, const std::vector<const ShadowJob*>& jobs,
+                                         const ScreenRect& bounds);
+
+/// Leaves that a nested camera lays over what is seen through the lens of a job: no shadow of that job falls on them.
+std::vector<ReplayedLeaf> notOfLens(const ShadowJob& job, const std::vector<DrawnLeaf>& leaves);
 
 } // namespace gnomon

@@ -30,10 +30,10 @@ public:
     /// @return why that cannot be, as a cause for ShadowTechnique::report(); empty if all is well.
     virtual std::string drawAhead(osg::RenderInfo& renderInfo) const = 0;
 
-    double depthSteps() const final { return 0.0; }
     std::string draw(ScreenPass&) const final { return ""; }
 
 protected:
+    ProgramMark() { depthSteps = 0.0; }
     ~ProgramMark() override = default;
 };
 
@@ -44,7 +44,7 @@ struct ShadowJob {
     int light = 0;       ///< OpenGL light number.
     bool relight = true; ///< else blended.
     float dark = 1.0f;
-    osg::ref_ptr<const osg::RefMatrix> projection; ///< of the technique's view.
+    osg::ref_ptr<const osg::RefMatrix> projection; ///< of the technique's view: its lens.
     bool receiverNamed = false;                    ///< only `receivers` lose the light.
     std::shared_ptr<const LeafSet> receivers;      ///< see ViewFrame.
     bool hidingOnly = false; ///< a receiver loses the light only where it hides what is behind, see LateReceivers.
@@ -56,11 +56,11 @@ struct ShadowJob {
     bool fades() const { return mark->kind() == Mark::Kind::Fades; }
     /// The mark, if it is for programs alone; else null.
     const ProgramMark* programMark() const { return dynamic_cast<const ProgramMark*>(mark.get()); }
-    /// True if the leaf loses the light where marked: it is of the named receiver, or with none named, of this view.
-    bool isReceiver(const osgUtil::RenderLeaf& leaf) const { return receiverNamed ? isNamed(&leaf) : isOfView(leaf); }
+    /// True if the leaf loses the light where marked: it is of the named receiver, or with none named, of this lens.
+    bool isReceiver(const osgUtil::RenderLeaf& leaf) const { return receiverNamed ? isNamed(&leaf) : isOfLens(leaf); }
     /// True if the leaf is seen through the technique's lens, unlike what a nested camera lays over the view.
-    bool isOfView(const osgUtil::RenderLeaf& leaf) const { return isOfView(projectionOf(leaf)); }
-    bool isOfView(const osg::Matrixd& lens) const { return isSameLens(lens, *projection); }
+    bool isOfLens(const osgUtil::RenderLeaf& leaf) const { return isOfLens(projectionOf(leaf)); }
+    bool isOfLens(const osg::Matrixd& lens) const { return isSameLens(lens, *projection); }
 };
 
 /// Is told, in draw, when the compositor begins its work for one stage, and when it has done it.

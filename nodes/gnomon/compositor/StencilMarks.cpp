@@ -1,9 +1,38 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/compositor/LeafReplay.h>
+#include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/compositor/StencilMarks.h>
-#include <gnomon/compositor/TrueDepths.h>
+
+#include <algorithm>
 
 namespace gnomon {
+namespace {
+
+std::string nameOf(const MarkedLight& light) { return "light " + std::to_string(light.number); }
+
+/// Writes the depths of its triangles where they are nearer than what stands.
+void writeDepths(osg::State& state, const VastLeaf& leaf) {
+    const DepthPlacement placement = depthPlacementOf(leaf.entry.leaf->_parent);
+    const osg::Vec2f offset(polygonOffsetOf(leaf.entry.leaf->_parent));
+    state.applyProjectionMatrix(nullptr);
+    state.applyModelViewMatrix(nullptr);
+    glDepthFunc(GL_LESS);
+    glDepthRange(placement.nearest, placement.farthest);
+    glEnable(GL_POLYGON_OFFSET_FILL);
+    glPolygonOffset(offset.x(), offset.y());
+    glBegin(GL_TRIANGLES);
+    for (const glm::vec4& corner : leaf.corners) glVertex4f(corner.x, corner.y, corner.z, corner.w);
+    glEnd();
+    glPolygonOffset(0.0f, 0.0f);
+    glDisable(GL_POLYGON_OFFSET_FILL);
+    glDepthRange(0.0, 1.0);
+}
+
+} // namespace
+
+void reportAll(const Jobs& jobs, const std::string& cause) {
+    for (const ShadowJob* job : jobs) job->report(cause);
+}
 
 ScreenRect boundsOf(const Jobs& jobs) {
     ScreenRect all = jobs.front()->mark->screenBounds;
@@ -15,6 +44,143 @@ std::vector<LightUniform> lightUniformsOf(const Jobs& jobs) {
     std::vector<LightUniform> all;
     for (const ShadowJob* job : jobs) all.insert(all.end(), job->lightUniforms.begin(), job->lightUniforms.end());
     return all;
+}
+
+TrueDepths::TrueDepths(const CompositorStage& draw, const ScreenRect& bounds) : _draw(draw), _bounds(bounds) {
+    if (_draw.vast.empty()) return;
+    const unsigned bit = _draw.vastBit;
+    if (!_draw.stencilIsZero) _draw.clear(bit, _bounds);
+    std::vector<ReplayedLeaf> leaves;
+    for (const VastLeaf& leaf : _draw.vast) leaves.push_back({leaf.entry, 0});
+    writeWhereSeen(_draw, leaves, bit, bit, _bounds);
+    _draw.pass(_bounds, [&](ScreenPass& screen) {
+        screen.stencilEqual(bit, bit, 0);
+        screen.writeFarDepth();
+        for (const VastLeaf& leaf : _draw.vast) writeDepths(screen.state(), leaf); // depths are written after that quad
+    });
+}
+
+/// The leaf alone, as it was drawn: it was what one saw there.
+TrueDepths::~TrueDepths() {
+    if (_draw.vast.empty()) return;
+    const unsigned bit = _draw.vastBit;
+    _draw.pass(_bounds, [&](ScreenPass& screen) {
+        screen.stencilEqual(bit, bit, 0);
+        screen.writeFarDepth();
+    });
+    LeafReplay::Overlay overlay;
+    overlay.stencilFunction = GL_EQUAL;
+    overlay.reference = overlay.test = bit;
+    overlay.color = LeafReplay::Color::None;
+    overlay.bounds = _bounds;
+    {
+        LeafReplay replay(_draw, overlay);
+        for (const VastLeaf& leaf : _draw.vast) replay.draw(leaf.entry);
+    }
+    _draw.clear(bit, _bounds);
+}
+
+Jobs MarkedLight::jobs() const {
+    Jobs all = hard;
+    if (fading) all.push_back(fading);
+    return all;
+}
+
+unsigned bitsOf(const MarkedLights& lights) {
+    unsigned bits = 0;
+    for (const MarkedLight& light : lights) bits |= light.bits();
+    return bits;
+}
+
+Jobs jobsOf(const MarkedLights& lights) {
+    Jobs all;
+    for (const MarkedLight& light : lights)
+        for (const ShadowJob* job : light.jobs()) all.push_back(job);
+    return all;
+}
+
+MarkedLights partOf(const MarkedLights& lights, unsigned subset) {
+    MarkedLights part;
+    for (std::size_t i = 0; i < lights.size(); ++i)
+        if (subset & (1u << i)) part.push_back(lights[i]);
+    return part;
+}
+
+ScreenRect commonBounds(const MarkedLights& lights) {
+    ScreenRect bounds = wholeScreen;
+    for (const MarkedLight& light : lights) bounds = common(bounds, boundsOf(light.jobs()));
+    return bounds;
+}
+
+StencilMarks::StencilMarks(const CompositorStage& draw, bool fades) : _draw(draw), _fades(fades) {
+    for (const unsigned bit : draw.bits)
+        if (!(bit & draw.counters)) _lightBits.push_back(bit);
+    _scratch = takeLast();
+    _faded = fades ? takeLast() : 0;
+}
+
+/// One is left for the lights.
+unsigned StencilMarks::takeLast() {
+    if (_lightBits.size() < 2) return 0;
+    const unsigned bit = _lightBits.back();
+    _lightBits.pop_back();
+    return bit;
+}
+
+MarkedLights StencilMarks::lightsOf(const Jobs& wanted) const {
+    MarkedLights lights;
+    for (const ShadowJob* job : wanted) {
+        const auto isOfJob = [job](const MarkedLight& known) { return known.number == job->light; };
+        auto light = std::find_if(lights.begin(), lights.end(), isOfJob);
+        if (light == lights.end()) {
+            lights.emplace_back().number = job->light;
+            light = lights.end() - 1;
+        }
+        const bool fades = _fades && job->fades();
+        if (fades && light->fading)
+            job->report("another technique has soft edges for the same light, so these edges are hard. Use one "
+                        "technique with soft edges for each light.");
+        if (fades && !light->fading)
+            light->fading = job;
+        else
+            light->hard.push_back(job);
+    }
+    for (; lights.size() > mostRelitLights; lights.pop_back())
+        reportAll(
+            lights.back().jobs(),
+            nameOf(lights.back()) + " casts no shadow, because at most " + std::to_string(mostRelitLights) +
+                " lights can be relit in this view. Set BLEND (composite=blend), which takes any number of lights.");
+    std::vector<unsigned> unused = _lightBits;
+    const auto lacksBits = [&](MarkedLight& light) { return !assignBits(light, unused); };
+    lights.erase(std::remove_if(lights.begin(), lights.end(), lacksBits), lights.end());
+    return lights;
+}
+
+bool StencilMarks::assignBits(MarkedLight& light, std::vector<unsigned>& unused) const {
+    const std::size_t needed = (light.hard.empty() ? 0u : 1u) + (light.fading ? 1u : 0u);
+    if (unused.size() < needed) {
+        reportAll(light.jobs(),
+                  nameOf(light) + " casts no shadow, because too few stencil bits are left. Leave more out of "
+                                  "CompositorOptions::reservedStencilBits, or set BLEND (composite=blend), which takes "
+                                  "any number of lights.");
+        return false;
+    }
+    const auto take = [&unused] {
+        const unsigned bit = unused.front();
+        unused.erase(unused.begin());
+        return bit;
+    };
+    if (!light.hard.empty()) light.hardBit = take();
+    if (light.fading) light.fadingBit = take();
+    return true;
+}
+
+void StencilMarks::mark(const MarkedLights& lights, Pixels pixels) const {
+    clearLeftovers(bitsOf(lights));
+    for (const MarkedLight& light : lights) {
+        for (const ShadowJob* job : light.hard) add(*job, light.hardBit, job == light.hard.front());
+        if (light.fading) add(*light.fading, light.fadingBit, true, pixels);
+    }
 }
 
 /// The first job of a light without a named receiver marks its bit directly; any other goes through the scratch bit.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/compositor/CompositorStage.h>
-#include <gnomon/compositor/ReplaySelection.h>
 #include <gnomon/compositor/ShadowJob.h>
 
 #include <vector>
@@ -13,12 +12,48 @@ using Jobs = std::vector<const ShadowJob*>;
 /// Each further light doubles the passes.
 constexpr std::size_t mostRelitLights = 3;
 
+/// A cause for all their techniques.
+void reportAll(const Jobs& jobs, const std::string& cause);
 /// Where all the jobs' marks can fall.
 ScreenRect boundsOf(const Jobs& jobs);
 /// Those of all the jobs' groups.
 std::vector<LightUniform> lightUniformsOf(const Jobs& jobs);
 
-/// Draws the marks of jobs into stencil bits, each cut to its receiver.
+/// One light that is taken away in a view: the jobs that mark where, and the stencil bits of their marks.
+struct MarkedLight {
+    int number = 0; ///< OpenGL's.
+    Jobs hard;      ///< a pixel gets all of the light or nothing.
+    const ShadowJob* fading = nullptr;
+    unsigned hardBit = 0, fadingBit = 0;
+
+    unsigned bits() const { return hardBit | fadingBit; }
+    bool isMixed() const { return hardBit && fadingBit; }
+    Jobs jobs() const;
+};
+using MarkedLights = std::vector<MarkedLight>;
+
+unsigned bitsOf(const MarkedLights& lights);
+Jobs jobsOf(const MarkedLights& lights);
+/// Those of `subset`: bit i means lights[i].
+MarkedLights partOf(const MarkedLights& lights, unsigned subset);
+/// Where pixels can lose all of these lights.
+ScreenRect commonBounds(const MarkedLights& lights);
+
+/// While it lives, the depths of a stage's vast leaves are right: their triangles, cut in double, are drawn where the leaf is
+/// what one sees. Afterwards the leaf's own depths stand there again, to the bit. Nothing is done in stages without any.
+class TrueDepths {
+public:
+    TrueDepths(const CompositorStage& draw, const ScreenRect& bounds);
+    ~TrueDepths();
+    TrueDepths(const TrueDepths&) = delete;
+    TrueDepths& operator=(const TrueDepths&) = delete;
+
+private:
+    const CompositorStage& _draw;
+    const ScreenRect _bounds;
+};
+
+/// Shares out the free stencil bits of a stage to lights, and draws the marks of jobs into them, each cut to its receiver.
 class StencilMarks {
 public:
     /// Which pixels of a job that fades are marked.
@@ -28,21 +63,37 @@ public:
         Weighed  ///< the same, and alpha is multiplied by the share that does.
     };
 
-    /// @param scratch  a stencil bit that is 0 before and after; 0 if there is none.
-    StencilMarks(const CompositorStage& draw, unsigned scratch) : _draw(draw), _scratch(scratch) {}
+    /// @param draw   with one stencil bit at least; must outlive this.
+    /// @param fades  jobs that fade have bits of their own; else their edges are hard.
+    StencilMarks(const CompositorStage& draw, bool fades);
 
+    /// For marks that need no other bit.
+    unsigned firstBit() const { return _lightBits.front(); }
+    /// For what cannot be mixed; 0 if there is none.
+    unsigned fadedBit() const { return _faded; }
+
+    /// Lights as far as there are bits for them; reports those that are left out.
+    MarkedLights lightsOf(const Jobs& wanted) const;
+    /// Draws all marks into their lights' bits, which nobody has used.
+    void mark(const MarkedLights& lights, Pixels pixels = Pixels::Half) const;
     /// Adds a job's marks to those in `bit`.
     /// @param fresh  none are in it yet.
     void add(const ShadowJob& job, unsigned bit, bool fresh, Pixels pixels = Pixels::Half) const;
     /// Into a bit that is 0, whatever the receiver.
     void addUngated(const ShadowJob& job, unsigned bit, Pixels pixels = Pixels::Half) const;
+    /// Before marks: in this bit, and in those that add() takes.
+    void clearLeftovers(unsigned bits) const { _draw.clearLeftovers(bits | _scratch | _faded); }
 
 private:
+    unsigned takeLast();
+    bool assignBits(MarkedLight& light, std::vector<unsigned>& unused) const;
     void gate(const ShadowJob& job, unsigned bit) const;
     void transfer(const ShadowJob& job, unsigned bit) const;
 
     const CompositorStage& _draw;
-    const unsigned _scratch;
+    const bool _fades;
+    std::vector<unsigned> _lightBits;
+    unsigned _scratch, _faded; ///< 0 before and after; 0 if there is none.
 };
 
 } // namespace gnomon

@@ -112,7 +112,7 @@ bool isDrawnPlainly(const osgUtil::StateGraph* graph) {
     const auto* program = resolved<osg::Program>(graph, osg::StateAttribute::PROGRAM);
     if (program && program->getNumShaders() > 0) {
         const ProgramPlaces places = placesOf(*program);
-        if (places.movesVertices || places.ownDepth) return false;
+        if (places.movesVertices || places.setsDepth) return false;
     }
     return writesDepth(graph);
 }

@@ -3,7 +3,6 @@
 #include <gnomon/base/FrameDiagnosis.h>
 #include <gnomon/compositor/CompositorStage.h>
 #include <gnomon/compositor/LeafReplay.h>
-#include <gnomon/compositor/ReplaySelection.h>
 #include <gnomon/compositor/ViewEffect.h>
 #include <gnomon/effects/SubgraphCull.h>
 
@@ -39,7 +38,7 @@ private:
     void blendEachTriangle(const CompositorStage& draw) const;
 
     std::vector<DrawnLeaf> _leaves, _larger;
-    std::vector<osg::ref_ptr<osgUtil::RenderLeaf>> _own; ///< what `_larger` points to.
+    std::vector<osg::ref_ptr<osgUtil::RenderLeaf>> _largerLeaves; ///< what `_larger` points to.
 };
 
 constexpr unsigned mostCounted = 7;
@@ -65,11 +64,11 @@ void HaloEffect::prepare(osgUtil::RenderStage&, const std::vector<DrawnLeaf>&) {
     const std::vector<DrawnLeaf> unsorted = children->leaves();
     for (std::size_t i = 0; i < larger.size(); ++i) {
         const osgUtil::RenderLeaf& leaf = *unsorted[i].leaf;
-        osg::ref_ptr<osgUtil::RenderLeaf> own =
+        osg::ref_ptr<osgUtil::RenderLeaf> copy =
             new osgUtil::RenderLeaf(leaf._drawable, leaf._projection, new osg::RefMatrix(larger[i]), leaf._depth);
-        own->_parent = leaf._parent;
-        _own.push_back(own);
-        _larger.push_back({own, unsorted[i].bin});
+        copy->_parent = leaf._parent;
+        _largerLeaves.push_back(copy);
+        _larger.push_back({copy, unsorted[i].bin});
     }
     _leaves = children->sortedLeaves();
 }
@@ -97,13 +96,13 @@ void HaloEffect::drawLarger(const CompositorStage& draw, LeafReplay::Overlay ove
 
 /// All of that but for what one sees of the children themselves.
 void HaloEffect::markRim(const CompositorStage& draw, unsigned bit) const {
-    LeafReplay::Overlay rim, own;
-    rim.reference = rim.write = own.write = bit;
+    LeafReplay::Overlay rim, seen;
+    rim.reference = rim.write = seen.write = bit;
     drawLarger(draw, rim);
-    own.color = LeafReplay::Color::None;
-    own.keepDepth = true;
-    own.equalDepth = true;
-    LeafReplay replay(draw, own);
+    seen.color = LeafReplay::Color::None;
+    seen.keepDepth = true;
+    seen.equalDepth = true;
+    LeafReplay replay(draw, seen);
     for (const DrawnLeaf& entry : _leaves) replay.draw(entry);
 }
 
@@ -154,10 +153,10 @@ std::vector<osg::Matrixd> largerLeaves(const HaloNode& node, const std::vector<D
     const osg::Matrixd whole = nodeFromEye * scaledAbout(middle, node.getScale()) * eyeFromNode;
     std::vector<osg::Matrixd> larger;
     for (const DrawnLeaf& entry : leaves) {
-        const osg::Vec3d own(entry.leaf->_drawable->getBoundingBox().center());
+        const osg::Vec3d ofLeaf(entry.leaf->_drawable->getBoundingBox().center());
         const osg::Matrixd& place = modelviewOf(*entry.leaf);
         larger.push_back(node.getShape() == HaloNode::WHOLE ? place * whole
-                                                            : scaledAbout(own, node.getScale()) * place);
+                                                            : scaledAbout(ofLeaf, node.getScale()) * place);
     }
     return larger;
 }

@@ -7,7 +7,6 @@
 #include <gnomon/base/FrameDiagnosis.h>
 #include <gnomon/compositor/CompositorStage.h>
 #include <gnomon/compositor/LeafReplay.h>
-#include <gnomon/compositor/ReplaySelection.h>
 #include <gnomon/compositor/ViewEffect.h>
 #include <gnomon/effects/SubgraphCull.h>
 #include <gnomon/geometry/ScreenBounds.h>

@@ -138,24 +138,24 @@ std::optional<glm::dvec2> ResolvedDepth::read(osg::State& state, const PixelRect
     const SavedFramebuffers bound(extensions);
     const GLenum format = depthFormat(extensions);
     if (!format || !extensions.glBlitFramebuffer || !extensions.glRenderbufferStorageMultisample) return std::nullopt;
-    Buffers& own = of(state.getContextID());
+    Buffers& buffers = of(state.getContextID());
     const GLint samples = glInteger(GL_SAMPLES);
-    const bool known = own.format == format && own.samples == samples;
+    const bool known = buffers.format == format && buffers.samples == samples;
     const GLsizei width = pixels.x + pixels.width, height = pixels.y + pixels.height;
-    if (!known || own.width < width || own.height < height) {
-        own.format = format;
-        own.samples = samples;
-        fit(own, extensions, width, height);
+    if (!known || buffers.width < width || buffers.height < height) {
+        buffers.format = format;
+        buffers.samples = samples;
+        fit(buffers, extensions, width, height);
     }
     const ScratchFramebuffer framebuffer(extensions);
-    framebuffer.attachDepth(own.depth);
+    framebuffer.attachDepth(buffers.depth);
     if (!framebuffer.isComplete()) return std::nullopt;
     if (!known)
-        own.place = {placeOnSlope(own, framebuffer.name, state, false),
-                     placeOnSlope(own, framebuffer.name, state, true)};
+        buffers.place = {placeOnSlope(buffers, framebuffer.name, state, false),
+                         placeOnSlope(buffers, framebuffer.name, state, true)};
     resolve(extensions, bound.draw, framebuffer.name, pixels);
     readOut();
-    return own.place;
+    return buffers.place;
 }
 
 ResolvedDepth::Buffers& ResolvedDepth::of(unsigned context) {

@@ -117,12 +117,6 @@ void ScreenPass::uncount(unsigned bits) {
     glStencilMask(bits);
 }
 
-void ScreenPass::setCount(unsigned bits, unsigned value) {
-    glDisable(GL_DEPTH_TEST);
-    stencilEqual(value, 0, bits);
-    drawQuad();
-}
-
 void ScreenPass::takeCount(unsigned bits, unsigned mark) {
     testDepth(GL_GREATER);
     _pattern.test(GL_NOTEQUAL, mark & ~bits, bits);
@@ -138,23 +132,6 @@ void ScreenPass::writeFarDepth() {
     glDepthFunc(GL_ALWAYS);
     glDepthMask(GL_TRUE);
     drawQuad(1.0);
-}
-
-void ScreenPass::writeDepths(const std::vector<glm::vec4>& corners, const glm::dvec2& range, const glm::dvec2& offset) {
-    _state.applyProjectionMatrix(nullptr);
-    _state.applyModelViewMatrix(nullptr);
-    glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_LESS);
-    glDepthMask(GL_TRUE);
-    glDepthRange(range.x, range.y);
-    glEnable(GL_POLYGON_OFFSET_FILL);
-    glPolygonOffset(static_cast<GLfloat>(offset.x), static_cast<GLfloat>(offset.y));
-    glBegin(GL_TRIANGLES);
-    for (const glm::vec4& corner : corners) glVertex4f(corner.x, corner.y, corner.z, corner.w);
-    glEnd();
-    glPolygonOffset(0.0f, 0.0f);
-    glDisable(GL_POLYGON_OFFSET_FILL);
-    glDepthRange(0.0, 1.0);
 }
 
 void ScreenPass::beginReplace() {
@@ -257,11 +234,6 @@ void ScreenPass::testDepth(GLenum function, bool clamp) {
     glEnable(GL_DEPTH_TEST);
     clamp ? glEnable(depthClamp) : glDisable(depthClamp);
     glDepthFunc(function);
-}
-
-void ScreenPass::testAlpha() {
-    glEnable(GL_ALPHA_TEST);
-    glAlphaFunc(GL_LESS, 1.0f);
 }
 
 void ScreenPass::drawQuad(double atCenter, double slopeX, double slopeY) {

@@ -33,8 +33,8 @@ const bool registered = [] {
     return true;
 }();
 
-/// Stencil bits that the compositor takes: one a light, and a scratch bit; one more for lights that fade.
-std::size_t ownBits(const std::vector<ShadowJob>& jobs) {
+/// Stencil bits that marks take: one a light, and a scratch bit; one more for lights that fade.
+std::size_t bitsOfLights(const std::vector<ShadowJob>& jobs) {
     if (std::none_of(jobs.begin(), jobs.end(), [](const auto& job) { return job.mark->kind() == Mark::Kind::Counts; }))
         return 8;
     if (std::any_of(jobs.begin(), jobs.end(), [](const auto& job) { return job.fades(); })) return mostRelitLights + 2;
@@ -158,8 +158,9 @@ std::string ComposeBin::compose(osg::RenderInfo& renderInfo, std::vector<DrawnLe
     const CompositorTarget target(state, *getStage()->getViewport(), needs);
     CompositorOptions options = _options;
     if (target.isOwn()) options.reservedStencilBits = 0;
-    const bool clean = target.isOwn() || isStencilClean(leaves);
-    const CompositorStage draw(renderInfo, *getStage(), {std::move(leaves), options, clean, ownBits(_jobs)}, materials);
+    const bool stencilIsZero = target.isOwn() || isStencilZero(leaves);
+    const CompositorStage draw(renderInfo, *getStage(),
+                               {std::move(leaves), options, stencilIsZero, bitsOfLights(_jobs)}, materials);
     const std::string cause = needs.stencilBits > 0 ? whyNotComposed(draw) : "";
     if (cause.empty()) {
         if (target.lacksDepth()) {
@@ -189,7 +190,7 @@ TargetNeeds ComposeBin::needs(const std::vector<DrawnLeaf>& leaves) const {
 }
 
 /// As the stage draws. @param leaves  drawn since.
-bool ComposeBin::isStencilClean(const std::vector<DrawnLeaf>& leaves) const {
+bool ComposeBin::isStencilZero(const std::vector<DrawnLeaf>& leaves) const {
     return (getStage()->getClearMask() & GL_STENCIL_BUFFER_BIT) && getStage()->getClearStencil() == 0 &&
            !isModeOn(leaves, GL_STENCIL_TEST);
 }

@@ -57,7 +57,7 @@ protected:
 private:
     bool holdsFrame() const { return _holdsFrame && !isIdle(); }
     void sortAsAsked();
-    bool isStencilClean(const std::vector<DrawnLeaf>& leaves) const;
+    bool isStencilZero(const std::vector<DrawnLeaf>& leaves) const;
     std::string compose(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous);
     std::string compose(osg::RenderInfo& renderInfo, std::vector<DrawnLeaf> leaves, MaterialHistory& materials);
     TargetNeeds needs(const std::vector<DrawnLeaf>& leaves) const;

@@ -44,18 +44,18 @@ RecalledCauses::Known& RecalledCauses::knownOf(Kind kind, const void* who, int n
     return _known.back();
 }
 
-std::string RecalledCauses::causeOf(Kind kind, const void* who, const LitView& view, const State& state,
+std::string RecalledCauses::causeOf(Kind kind, const void* who, const LightInView& lit, const State& state,
                                     const std::function<std::string()>& find) {
-    Known& known = knownOf(kind, who, view.light.number);
+    Known& known = knownOf(kind, who, lit.light.number);
     ++known.frames;
-    const bool same = known.casters == view.casters.fingerprint && known.light == view.light.inGroup &&
-                      known.state.seen == state.seen;
-    const bool waits = known.frames < patience && known.pieces == view.casters.list.size();
+    const bool same =
+        known.casters == lit.casters.fingerprint && known.light == lit.light.inGroup && known.state.seen == state.seen;
+    const bool waits = known.frames < patience && known.pieces == lit.casters.list.size();
     if ((same || waits) && known.state.settings == state.settings) return known.cause;
-    known.casters = view.casters.fingerprint;
-    known.pieces = view.casters.list.size();
+    known.casters = lit.casters.fingerprint;
+    known.pieces = lit.casters.list.size();
     known.state = state;
-    known.light = view.light.inGroup;
+    known.light = lit.light.inGroup;
     known.frames = 0;
     known.cause = find();
     return known.cause;
@@ -96,14 +96,14 @@ CastingNode largestNode(const Casters& casters) {
 }
 
 /// Boxes of what is seen in the group's frame, but for a node's own; the largest.
-std::vector<osg::BoundingBoxd> boxesOf(const LitView& view, const CastingNode& without) {
-    std::set<const osg::Drawable*> own;
-    for (const auto& piece : without.pieces) own.insert(piece->drawable);
-    const osg::Matrixd groupFromEye = osg::Matrixd::inverse(view.eyeFromGroup);
+std::vector<osg::BoundingBoxd> boxesOf(const LightInView& lit, const CastingNode& without) {
+    std::set<const osg::Drawable*> left;
+    for (const auto& piece : without.pieces) left.insert(piece->drawable);
+    const osg::Matrixd groupFromEye = osg::Matrixd::inverse(lit.eyeFromGroup);
     std::vector<osg::BoundingBoxd> boxes;
-    for (const osgUtil::RenderLeaf* leaf : view.receivers) {
+    for (const osgUtil::RenderLeaf* leaf : lit.receivers) {
         const osg::BoundingBox& box = leaf->_drawable->getBoundingBox();
-        if (!box.valid() || own.count(leaf->_drawable)) continue;
+        if (!box.valid() || left.count(leaf->_drawable)) continue;
         boxes.push_back(placedBox(box, modelviewOf(*leaf) * groupFromEye));
     }
     const auto larger = [](const auto& a, const auto& b) { return a.radius() > b.radius(); };
@@ -155,14 +155,13 @@ bool encloses(const CastingNode& node, const std::vector<osg::Vec3d>& points, co
     });
 }
 
-std::string findEnclosing(const LitView& view) {
-    const CastingNode node = largestNode(view.casters);
+std::string findEnclosing(const LightInView& lit) {
+    const CastingNode node = largestNode(lit.casters);
     if (!node.node || node.triangles > mostTriangles) return {};
-    const std::vector<osg::Vec3d> points = pointsIn(boxesOf(view, node));
+    const std::vector<osg::Vec3d> points = pointsIn(boxesOf(lit, node));
     const auto isInside = [&](const osg::Vec3d& point) { return node.bounds.contains(point); };
-    if (points.empty() || !holdsForNearlyAll(points, isInside) || !encloses(node, points, view.light.inGroup))
-        return {};
-    return "nearly all that light " + std::to_string(view.light.number) +
+    if (points.empty() || !holdsForNearlyAll(points, isInside) || !encloses(node, points, lit.light.inGroup)) return {};
+    return "nearly all that light " + std::to_string(lit.light.number) +
            " could reach in this view is in the shadow of '" + nameOf(*node.node) +
            "', which stands around it. Take that node out of the casters (setCasters(), --casters), or draw it "
            "at the far plane, as skies are.";
@@ -170,9 +169,9 @@ std::string findEnclosing(const LitView& view) {
 
 } // namespace
 
-std::string enclosingCause(const LitView& view) {
+std::string enclosingCause(const LightInView& lit) {
     try {
-        return findEnclosing(view);
+        return findEnclosing(lit);
     } catch (const std::runtime_error&) { // no tree for rays: traced tells why
         return {};
     }
@@ -270,9 +269,9 @@ void cutBehind(const osg::BoundingBoxd& floor, const osg::Vec4d& light, osg::Bou
 }
 
 /// The largest first, without what is sunk in a floor that gets its shadow.
-std::vector<Placed> surfacesOf(const LitView& view, const LeafSet& shadowed, const osg::Vec4d& light) {
-    const osg::Matrixd groupFromEye = osg::Matrixd::inverse(view.eyeFromGroup);
-    std::vector<Placed> surfaces = placed(view.receivers, groupFromEye);
+std::vector<Placed> surfacesOf(const LightInView& lit, const LeafSet& shadowed, const osg::Vec4d& light) {
+    const osg::Matrixd groupFromEye = osg::Matrixd::inverse(lit.eyeFromGroup);
+    std::vector<Placed> surfaces = placed(lit.receivers, groupFromEye);
     for (const Placed& floor : placed(shadowed, groupFromEye))
         for (Placed& surface : surfaces) cutBehind(floor.inGroup, light, surface.inGroup);
     const auto isNothing = [](const Placed& surface) { return !surface.inGroup.valid(); };
@@ -299,14 +298,14 @@ bool canShadow(const Placed& caster, const Placed& surface, const osg::Vec4d& li
 
 } // namespace
 
-std::string unshadowedSurface(const LitView& view, const LeafSet& shadowed,
+std::string unshadowedSurface(const LightInView& lit, const LeafSet& shadowed,
                               const std::set<const osg::Drawable*>& notCasting) {
     std::vector<Placed> casters;
-    for (const auto& piece : view.casters.list)
+    for (const auto& piece : lit.casters.list)
         if (piece->bounds.valid() && !notCasting.count(piece->drawable))
             casters.push_back({piece->drawable, piece->groupFromLocal, piece->bounds});
-    const osg::Vec4d light = view.light.inGroup.w() < 0.0 ? -view.light.inGroup : view.light.inGroup;
-    for (const Placed& surface : surfacesOf(view, shadowed, light)) {
+    const osg::Vec4d light = lit.light.inGroup.w() < 0.0 ? -lit.light.inGroup : lit.light.inGroup;
+    for (const Placed& surface : surfacesOf(lit, shadowed, light)) {
         const auto shadows = [&](const Placed& caster) { return canShadow(caster, surface, light); };
         if (std::any_of(casters.begin(), casters.end(), shadows) && !areAllFacesCulled(*surface.leaf))
             return nameOf(*surface.drawable);
@@ -351,16 +350,16 @@ double coarseDepthFrom(const osg::Matrixd& projection, const DepthPixels& pixels
     return std::ldexp(change, depthBits) / (across * pixels.steps);
 }
 
-bool reachesCoarseDepth(const LitView& view, const osg::Matrixd& projection, const DepthPixels& pixels) {
-    const osg::BoundingBoxd& box = view.casters.bounds;
+bool reachesCoarseDepth(const LightInView& lit, const osg::Matrixd& projection, const DepthPixels& pixels) {
+    const osg::BoundingBoxd& box = lit.casters.bounds;
     return box.valid() &&
-           farthestOf(cornersOf(box, toGlm(view.eyeFromGroup * projection))) > coarseDepthFrom(projection, pixels);
+           farthestOf(cornersOf(box, toGlm(lit.eyeFromGroup * projection))) > coarseDepthFrom(projection, pixels);
 }
 
-std::string coarselyPlaced(const LitView& view, const osg::Matrixd& projection, const DepthPixels& pixels) {
+std::string coarselyPlaced(const LightInView& lit, const osg::Matrixd& projection, const DepthPixels& pixels) {
     const double coarse = coarseDepthFrom(projection, pixels);
-    const glm::dmat4 clipFromGroup = toGlm(view.eyeFromGroup * projection);
-    for (const auto& piece : view.casters.list) {
+    const glm::dmat4 clipFromGroup = toGlm(lit.eyeFromGroup * projection);
+    for (const auto& piece : lit.casters.list) {
         if (!piece->bounds.valid()) continue;
         const Corners corners = cornersOf(piece->bounds, clipFromGroup);
         if (nearestOf(corners) > coarse && isSeen(corners, pixels.size)) return nameOf(*piece->drawable);

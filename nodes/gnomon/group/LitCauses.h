@@ -20,7 +20,7 @@
 namespace gnomon {
 
 /// One light in one view, of which something is asked for diagnose().
-struct LitView {
+struct LightInView {
     const ShadowCasterGroup& group;
     const ShadowLight& light;
     const Casters& casters;
@@ -47,7 +47,7 @@ public:
     /// A cause for ShadowTechnique::report(); empty if there is none.
     /// @param who   what asks: an address, never followed.
     /// @param find  finds it anew.
-    std::string causeOf(Kind kind, const void* who, const LitView& view, const State& state,
+    std::string causeOf(Kind kind, const void* who, const LightInView& lit, const State& state,
                         const std::function<std::string()>& find);
 
 protected:
@@ -78,7 +78,7 @@ private:
 /// Cost    a look at the casters' boxes. Rays, 128 of them, only if a node holds the receivers. See RecalledCauses.
 /// Limits  receivers are taken by the boxes of the seven largest drawables in sight. Drawables below one node count together.
 /// @return a cause for ShadowTechnique::report(); empty if there is no such node. Reads the graph: call in cull.
-std::string enclosingCause(const LitView& view);
+std::string enclosingCause(const LightInView& lit);
 
 /// Finds a surface that the casters' shadow can reach, for diagnose().
 ///
@@ -86,11 +86,11 @@ std::string enclosingCause(const LitView& view);
 ///         a surface that culls faces. See RecalledCauses.
 /// Limits  a drawable's shadow on itself does not count. Boxes are larger than what they hold, and so are shrunk: a shadow on
 ///         the outermost tenth of a surface's box, to each side, is not looked for.
-/// @param view        its receivers are the surfaces in view that get no shadow.
+/// @param lit         its receivers are the surfaces in view that get no shadow.
 /// @param shadowed    those that get one: what is sunk in a flat one of them is not looked at.
 /// @param notCasting  drawables that cast nothing there.
 /// @return the name of the largest surface that a caster can shadow; empty if there is none.
-std::string unshadowedSurface(const LitView& view, const LeafSet& shadowed,
+std::string unshadowedSurface(const LightInView& lit, const LeafSet& shadowed,
                               const std::set<const osg::Drawable*>& notCasting);
 
 /// Pixels of a viewport, and how many steps of its depth buffer a surface may be off.
@@ -105,12 +105,12 @@ struct DepthPixels {
 double coarseDepthFrom(const osg::Matrixd& projection, const DepthPixels& pixels);
 
 /// True if the casters' box reaches that far: quickly asked.
-bool reachesCoarseDepth(const LitView& view, const osg::Matrixd& projection, const DepthPixels& pixels);
+bool reachesCoarseDepth(const LightInView& lit, const osg::Matrixd& projection, const DepthPixels& pixels);
 
 /// Finds a caster that is so far away that depths do not tell where its shadow falls, for diagnose().
 ///
 /// Cost    a look at the casters' boxes. See RecalledCauses.
 /// @return the name of the first such caster that covers a pixel or more of the view; empty if there is none.
-std::string coarselyPlaced(const LitView& view, const osg::Matrixd& projection, const DepthPixels& pixels);
+std::string coarselyPlaced(const LightInView& lit, const osg::Matrixd& projection, const DepthPixels& pixels);
 
 } // namespace gnomon

@@ -120,9 +120,9 @@ std::string unshadowedCause(const TechniqueInStage& asked, const ShadowLight& li
         surfaces.erase(std::remove_if(surfaces.begin(), surfaces.end(), isShadowed), surfaces.end());
     }
     if (surfaces.empty()) return {};
-    const LeafSet own = shadowedBy(entry, drawn, stage);
-    const std::string name = unshadowedSurface({*entry.group, light, casters, surfaces, entry.eyeFromGroup}, own,
-                                               notCastingBy(entry, own, casters));
+    const LeafSet shadowed = shadowedBy(entry, drawn, stage);
+    const std::string name = unshadowedSurface({*entry.group, light, casters, surfaces, entry.eyeFromGroup}, shadowed,
+                                               notCastingBy(entry, shadowed, casters));
     if (name.empty()) return {};
     return "the casters' shadow can fall on '" + name +
            "', which this technique leaves lit. Use map, volume or traced, or add a technique that receives there.";
@@ -208,10 +208,10 @@ void reportEnclosers(const TechniqueInStage& asked, const std::vector<ShadowLigh
                      const Leaves& receiving) {
     const EnlistedTechnique& entry = asked.entry;
     for (const ShadowLight& light : lights) {
-        const LitView view{*entry.group, light, casters, receiving, entry.eyeFromGroup};
+        const LightInView lit{*entry.group, light, casters, receiving, entry.eyeFromGroup};
         const std::string cause = keptBy<RecalledCauses>(asked.stage)
-                                      .causeOf(RecalledCauses::Kind::EnclosingNode, entry.group.get(), view,
-                                               {receiving.size(), 0}, [&] { return enclosingCause(view); });
+                                      .causeOf(RecalledCauses::Kind::EnclosingNode, entry.group.get(), lit,
+                                               {receiving.size(), 0}, [&] { return enclosingCause(lit); });
         if (!cause.empty()) entry.report(cause);
     }
 }
@@ -224,9 +224,9 @@ void reportUnshadowed(const TechniqueInStage& asked, const std::vector<ShadowLig
     const RecalledCauses::State state{*seen, settingsOf(*entry.group, asked.all)};
     const Leaves none;
     for (const ShadowLight& light : lights) {
-        const LitView view{*entry.group, light, casters, none, entry.eyeFromGroup};
+        const LightInView lit{*entry.group, light, casters, none, entry.eyeFromGroup};
         const std::string cause = keptBy<RecalledCauses>(asked.stage)
-                                      .causeOf(RecalledCauses::Kind::UnshadowedSurface, entry.technique.get(), view,
+                                      .causeOf(RecalledCauses::Kind::UnshadowedSurface, entry.technique.get(), lit,
                                                state, [&] { return unshadowedCause(asked, light, casters); });
         if (!cause.empty()) entry.report(cause);
     }
@@ -237,14 +237,14 @@ void reportCoarseDepth(const TechniqueInStage& asked, const ShadowLight& light, 
     osgUtil::RenderStage& stage = asked.stage;
     const DepthPixels pixels{{stage.getViewport()->width(), stage.getViewport()->height()}, steps};
     const Leaves none;
-    const LitView view{*entry.group, light, casters, none, entry.eyeFromGroup};
-    if (!reachesCoarseDepth(view, *entry.projection, pixels)) return;
+    const LightInView lit{*entry.group, light, casters, none, entry.eyeFromGroup};
+    if (!reachesCoarseDepth(lit, *entry.projection, pixels)) return;
     Fingerprint seen;
     seen.mix(entry.eyeFromGroup);
     seen.mix(*entry.projection);
     const std::string cause = keptBy<RecalledCauses>(stage).causeOf(
-        RecalledCauses::Kind::CoarseDepth, entry.technique.get(), view, {seen.value(), 0}, [&] {
-            const std::string name = coarselyPlaced(view, *entry.projection, pixels);
+        RecalledCauses::Kind::CoarseDepth, entry.technique.get(), lit, {seen.value(), 0}, [&] {
+            const std::string name = coarselyPlaced(lit, *entry.projection, pixels);
             if (name.empty()) return name;
             return "depths cannot tell where the shadow of '" + name +
                    "' falls, because their steps are too long there. Move the near plane out, or "

@@ -46,7 +46,7 @@ void reportEnclosers(const TechniqueInStage& asked, const std::vector<ShadowLigh
 void reportUnshadowed(const TechniqueInStage& asked, const std::vector<ShadowLight>& lights, const Casters& casters);
 
 /// Says that the shadows of what is far away cannot be placed by depth. For techniques whose marks depend on it.
-/// @param steps  see Mark::depthSteps(), above 0.
+/// @param steps  see Mark::depthSteps, above 0.
 void reportCoarseDepth(const TechniqueInStage& asked, const ShadowLight& light, const Casters& casters, double steps);
 
 } // namespace gnomon

@@ -30,23 +30,23 @@ const bool registered = [] {
 }();
 
 /// Casters without triangles are drawn by their own code, or not at all; clear parts of triangles in maps alone.
-void reportOwnDrawings(const EnlistedTechnique& entry, const Casters& casters) {
+void reportSelfDrawings(const EnlistedTechnique& entry, const Casters& casters) {
     const auto report = [&entry](const std::string& cause) { entry.report(cause); };
-    const auto& own = casters.own;
+    const auto& drawings = casters.selfDrawings;
     if (entry.technique->drawsCasters()) {
         const auto hasNone = [](const auto& drawing) { return !drawing->bounds.valid(); };
-        const auto unbounded = std::find_if(own.begin(), own.end(), hasNone);
-        if (unbounded != own.end())
+        const auto unbounded = std::find_if(drawings.begin(), drawings.end(), hasNone);
+        if (unbounded != drawings.end())
             report("'" + (*unbounded)->name +
                    "' draws itself and has no bounds, so it casts nothing. Give it computeBoundingBox(), or call "
                    "setInitialBound().");
         return;
     }
     const auto isAlone = [](const auto& drawing) { return !drawing->hasPiece; };
-    const auto first = std::find_if(own.begin(), own.end(), isAlone);
-    if (first != own.end())
+    const auto first = std::find_if(drawings.begin(), drawings.end(), isAlone);
+    if (first != drawings.end())
         report("what draws itself or is made of patches casts nothing here: " +
-               std::to_string(std::count_if(first, own.end(), isAlone)) + ", the first in '" + (*first)->name +
+               std::to_string(std::count_if(first, drawings.end(), isAlone)) + ", the first in '" + (*first)->name +
                "'. Use map, or let a node that is never drawn cast in its place.");
     if (casters.cutouts > 0)
         report("casters with clear parts cast as if they were solid: " + std::to_string(casters.cutouts) +
@@ -54,12 +54,12 @@ void reportOwnDrawings(const EnlistedTechnique& entry, const Casters& casters) {
 }
 
 bool hasCasters(const EnlistedTechnique& entry, const Casters& casters) {
-    reportOwnDrawings(entry, casters);
+    reportSelfDrawings(entry, casters);
     if (casters.invalidTriangles > 0)
         entry.report("invalid triangles are left out: " + std::to_string(casters.invalidTriangles) +
                      ", the first in '" + casters.invalidNode +
                      "'. Give every vertex finite coordinates and every index a vertex.");
-    if (!casters.empty() || (entry.technique->drawsCasters() && !casters.own.empty())) return true;
+    if (!casters.empty() || (entry.technique->drawsCasters() && !casters.selfDrawings.empty())) return true;
     if (entry.group->areCastersGone()) {
         entry.report("nothing casts, because the node given to setCasters() of the "
                      "ShadowCasterGroup is gone. Add the casters to the scene, and name "
@@ -299,7 +299,7 @@ std::size_t ShadowBin::askTechnique(const EnlistedTechnique& entry, const StageL
         entry.technique->letGo();
         return 0;
     }
-    _holdsFrame = _holdsFrame || (entry.technique->drawsCasters() && !casters.own.empty());
+    _holdsFrame = _holdsFrame || (entry.technique->drawsCasters() && !casters.selfDrawings.empty());
     const GroupLights found = lightsOf(*entry.group, entry.eyeFromGroup, *getStage());
     for (const std::string& cause : found.causes) entry.report(cause);
     askForMarks(entry, found, casters, drawn);
@@ -336,7 +336,7 @@ void ShadowBin::askForMarks(const EnlistedTechnique& entry, const GroupLights& f
     if (_jobs.size() == before && _lateJobs.size() == lateBefore) return; // it has said why, or is out of sight
     reportUnshadowed(asked, found.lights, casters);
     double steps = 0.0;
-    const auto take = [&steps](const ShadowJob& job) { steps = std::max(steps, job.mark->depthSteps()); };
+    const auto take = [&steps](const ShadowJob& job) { steps = std::max(steps, job.mark->depthSteps); };
     std::for_each(_jobs.begin() + before, _jobs.end(), take);
     std::for_each(_lateJobs.begin() + lateBefore, _lateJobs.end(), take);
     if (steps > 0.0) reportCoarseDepth(asked, found.lights.front(), casters, steps);
@@ -356,7 +356,7 @@ void ShadowBin::addJobs(const TechniqueInStage& asked, const GroupLights& found,
     ViewFrame whole = viewOf(entry, *getStage()->getViewport());
     whole.lights = found.lights.size();
     whole.strengths = found.strengths;
-    whole.options.filter = _options.filter; // as all who share this bin want it
+    whole.options.skipsUntouched = _options.skipsUntouched; // as all who share this bin want it
     whole.key.stage = getStage();
     for (const ReceiverPart& part : parts) {
         const bool isFirst = &part == &parts.front();

@@ -35,7 +35,7 @@ ShadowCasterGroup::ShadowCasterGroup(const ShadowCasterGroup& other, const osg::
       _options(other._options),
       _table(new CasterTable) {
     _table->setRule({_opaqueFrom});
-    for (const NodeReference& source : other._lightSources) _lightSources.emplace_back(source, other);
+    for (const ObservedNode& source : other._lightSources) _lightSources.emplace_back(source, other);
 }
 
 ShadowCasterGroup::~ShadowCasterGroup() = default;
@@ -87,7 +87,7 @@ void ShadowCasterGroup::setLightSources(std::vector<osg::ref_ptr<osg::LightSourc
 
 std::vector<osg::ref_ptr<osg::LightSource>> ShadowCasterGroup::getLightSources() const {
     std::vector<osg::ref_ptr<osg::LightSource>> sources;
-    for (const NodeReference& named : _lightSources) {
+    for (const ObservedNode& named : _lightSources) {
         const osg::ref_ptr<osg::Node> node = named.in(*this);
         if (auto* source = dynamic_cast<osg::LightSource*>(node.get())) sources.emplace_back(source);
     }

@@ -47,7 +47,7 @@ ProgramCauses::ProgramCauses(osgUtil::RenderStage& stage) : _eyeFromWorld(*stage
         const auto [places, isNew] = known.try_emplace(entry.leaf->_parent);
         if (isNew) places->second = placesIn(entry.leaf->_parent);
         if (places->second.movesVertices && !drawsItself(*entry.leaf->_drawable)) _moving.push_back(entry);
-        if (places->second.ownDepth) _ownDepths.insert(entry.leaf);
+        if (places->second.setsDepth) _setDepths.insert(entry.leaf);
     }
 }
 
@@ -58,8 +58,8 @@ bool ProgramCauses::moves(const osgUtil::RenderLeaf& leaf) const {
 void ProgramCauses::report(const FrameReport& report, const ShadowCasterGroup& group, const Leaves& receiving,
                            const Leaves& receivingLate) const {
     for (const Leaves* leaves : {&receiving, &receivingLate}) {
-        if (_ownDepths.empty()) break;
-        const auto bends = [this](const auto* leaf) { return _ownDepths.count(leaf) > 0; };
+        if (_setDepths.empty()) break;
+        const auto bends = [this](const auto* leaf) { return _setDepths.count(leaf) > 0; };
         const auto bent = std::find_if(leaves->begin(), leaves->end(), bends);
         if (bent == leaves->end()) continue;
         report("the program of '" + nameOf(**bent) +

@@ -63,7 +63,7 @@ public:
 
 private:
     std::vector<DrawnLeaf> _moving;                  ///< Their program moves vertices.
-    std::set<const osgUtil::RenderLeaf*> _ownDepths; ///< Their program sets a depth of its own.
+    std::set<const osgUtil::RenderLeaf*> _setDepths; ///< Their program sets a depth of its own.
     osg::Matrixd _eyeFromWorld;
 };
 

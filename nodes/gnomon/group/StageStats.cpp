@@ -17,11 +17,11 @@ double valueOf(const osg::Stats& stats, unsigned frame, const std::string& name,
 
 StageStats::StageStats(const osgUtil::RenderStage& stage) {
     const osg::Camera* camera = stage.getCamera();
-    osg::Stats* own = camera ? const_cast<osg::Camera*>(camera)->getStats() : nullptr;
-    if (!own || !(own->collectStats("rendering") || own->collectStats("gnomon"))) return;
-    _all.push_back(own);
+    osg::Stats* ofCamera = camera ? const_cast<osg::Camera*>(camera)->getStats() : nullptr;
+    if (!ofCamera || !(ofCamera->collectStats("rendering") || ofCamera->collectStats("gnomon"))) return;
+    _all.push_back(ofCamera);
     osg::View* view = const_cast<osg::Camera*>(camera)->getView();
-    if (view && view->getStats() && view->getStats() != own) _all.push_back(view->getStats());
+    if (view && view->getStats() && view->getStats() != ofCamera) _all.push_back(view->getStats());
 }
 
 void StageStats::addTime(unsigned frame, const std::string& what, double begin, double end) const {

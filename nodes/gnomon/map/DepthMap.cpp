@@ -111,9 +111,9 @@ void copyDepths(const osg::GLExtensions& gl, GLuint from, GLuint to, const std::
 }
 
 /// While a caster's own state is applied. OpenGL and osg::State are as before at its end.
-class OwnState {
+class SelfDrawnState {
 public:
-    OwnState(osg::State& state, const OwnCasters& own, const OwnDrawing& drawing)
+    SelfDrawnState(osg::State& state, const SelfDrawnCasters& all, const SelfDrawing& drawing)
         : _state(state),
           _size(static_cast<unsigned>(state.getStateSetStackSize())),
           _projection(new osg::RefMatrix(state.getProjectionMatrix())),
@@ -121,12 +121,12 @@ public:
         _state.apply(); // so that osg::State knows now what it will be told at the end
         _unit = _state.getActiveTextureUnit();
         glPushAttrib(GL_ALL_ATTRIB_BITS);
-        for (const auto& set : own.states) _state.pushStateSet(set);
+        for (const auto& set : all.states) _state.pushStateSet(set);
         for (const auto& set : drawing.states) _state.pushStateSet(set);
         _state.apply();
         _state.setActiveTextureUnit(0); // evaluators know no other
     }
-    ~OwnState() {
+    ~SelfDrawnState() {
         _state.popStateSetStackToSize(_size);
         _state.apply();
         _state.setActiveTextureUnit(_unit);
@@ -134,8 +134,8 @@ public:
         _state.applyProjectionMatrix(_projection);
         _state.applyModelViewMatrix(_modelview);
     }
-    OwnState(const OwnState&) = delete;
-    OwnState& operator=(const OwnState&) = delete;
+    SelfDrawnState(const SelfDrawnState&) = delete;
+    SelfDrawnState& operator=(const SelfDrawnState&) = delete;
 
 private:
     osg::State& _state;
@@ -167,20 +167,20 @@ public:
     std::string drawMovers(const Parts& parts) {
         const std::string cause = drawLayer(_picture.moving, parts);
         if (!cause.empty()) return cause;
-        for (const OwnCaster& caster : _picture.own.casters) {
+        for (const SelfDrawnCaster& caster : _picture.selfDrawn.casters) {
             const auto isIn = [&](const MapPicture::Part& part) {
                 return isInMap(caster.box, part.tile->clipFromScene());
             };
             if (std::none_of(parts.begin(), parts.end(), isIn)) continue;
-            const OwnState own(_state, _picture.own, *caster.drawing);
+            const SelfDrawnState applied(_state, _picture.selfDrawn, *caster.drawing);
             const MapState map;
             glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-            if (const float alpha = caster.drawing->casting.ownFrom; alpha > 0.0f) {
+            if (const float alpha = caster.drawing->casting.opaqueFrom; alpha > 0.0f) {
                 glEnable(GL_ALPHA_TEST);
                 glAlphaFunc(GL_GEQUAL, alpha);
             }
             for (const MapPicture::Part& part : parts)
-                if (isIn(part)) drawOwn(caster, part);
+                if (isIn(part)) drawSelfDrawn(caster, part);
         }
         return "";
     }
@@ -232,8 +232,8 @@ private:
 
     /// By its own code, at what that costs in the view. The modelview is the view's, so that what goes by the eye, as
     /// tessellation may, looks as it does there.
-    void drawOwn(const OwnCaster& caster, const MapPicture::Part& part) {
-        const glm::dmat4& eyeFromScene = _picture.own.eyeFromScene;
+    void drawSelfDrawn(const SelfDrawnCaster& caster, const MapPicture::Part& part) {
+        const glm::dmat4& eyeFromScene = _picture.selfDrawn.eyeFromScene;
         const glm::dmat4 clipFromEye = part.tile->clipFromScene() * glm::inverse(eyeFromScene);
         const auto refMatrix = [](const glm::dmat4& matrix) { return new osg::RefMatrix(toOsg(matrix)); };
         glViewport(part.tile->corner.x, part.tile->corner.y, _picture.size, _picture.size);

@@ -56,13 +56,15 @@ struct MapPicture : public osg::Referenced {
         bool operator==(const Layer& other) const;
     };
     Layer still, moving;
-    OwnCasters own;          ///< they count as moving.
-    int size = 0;            ///< of a tile's side, texels.
-    std::vector<Tile> tiles; ///< the finest comes first, for pixels take the first that holds them.
-    bool divided = false;    ///< several may hold a place of their light's frame, but not its depth.
+    SelfDrawnCasters selfDrawn; ///< they count as moving.
+    int size = 0;               ///< of a tile's side, texels.
+    std::vector<Tile> tiles;    ///< the finest comes first, for pixels take the first that holds them.
+    bool divided = false;       ///< several may hold a place of their light's frame, but not its depth.
 
     /// True if what moves looks as in another picture.
-    bool hasSameMoving(const MapPicture& other) const { return moving == other.moving && own.areSame(other.own); }
+    bool hasSameMoving(const MapPicture& other) const {
+        return moving == other.moving && selfDrawn.areSame(other.selfDrawn);
+    }
     /// The tile here that shows, of what stands still, the same as one of another picture; null if there is none.
     const Tile* findStill(const Tile& tile, const MapPicture& other) const;
 

@@ -69,10 +69,11 @@ void LightShadowMaps::settle(SeenScene seen, const MapRequest& latest) {
 
 void LightShadowMaps::update(const ViewFrame& view, MapMeshes& meshes) {
     const MapCasters& casters = *_faces.request().casters;
-    const OwnCasters own(casters.own, SceneFrame(casters.layers.origin).eyeFromScene(view), view.seen);
+    const SelfDrawnCasters selfDrawn(casters.selfDrawn, SceneFrame(casters.layers.origin).eyeFromScene(view),
+                                     view.seen);
     resize();
     const bool due = anyDue();
-    if (!due && isOfCasters() && _picture->own.areSame(own)) return;
+    if (!due && isOfCasters() && _picture->selfDrawn.areSame(selfDrawn)) return;
     for (Face& face : _faces.each) {
         if (face.needed.empty())
             face.fit = std::nullopt;
@@ -82,7 +83,7 @@ void LightShadowMaps::update(const ViewFrame& view, MapMeshes& meshes) {
     const bool stillAgain = _picture && _picture->still.of == casters.still,
                movingAgain = _picture && _picture->moving.of == casters.moving;
     const osg::ref_ptr<MapPicture> picture = new MapPicture;
-    picture->own = own;
+    picture->selfDrawn = selfDrawn;
     meshes.startPicture();
     picture->still = stillAgain && !due ? _picture->still : drawnOf(*casters.still, stillAgain, meshes);
     picture->moving = drawnOf(*casters.moving, movingAgain, meshes);
@@ -164,7 +165,7 @@ MapPicture::Layer LightShadowMaps::drawnOf(const MapLayer& layer, bool again, Ma
         const MapBox box = boxOf(placed, layer.casters->origin);
         for (const MapCutout& cutout : layer.meshes[i]->cutouts)
             if (_faces.flatsCast() || !cutout.flat) drawn.cutouts.push_back(cutout);
-        if (placed.ownDrawn || (placed.isBody && isFlat(box) && !_faces.flatsCast())) continue;
+        if (placed.selfDrawn || (placed.isBody && isFlat(box) && !_faces.flatsCast())) continue;
         const bool moving = &layer == _faces.request().casters->moving;
         const auto faces = meshes.facesOf(*layer.meshes[i], _faces.flatsCast(), again && !isSettled(), moving);
         if (!faces) continue;
@@ -221,7 +222,7 @@ PixelRect LightShadowMaps::moversIn(const MapPicture::Tile& tile) const {
     const MapLayer& moving = *_faces.request().casters->moving;
     std::for_each(moving.bodies.begin(), moving.bodies.end(), add);
     if (_faces.flatsCast()) std::for_each(moving.flats.begin(), moving.flats.end(), add);
-    for (const OwnCaster& caster : _faces.request().casters->own) add(caster.box);
+    for (const SelfDrawnCaster& caster : _faces.request().casters->selfDrawn) add(caster.box);
     if (!(low.x <= high.x && low.y <= high.y)) return {};
     const double more = 1.0 + std::max(tile.errors.nearest.texels, tile.errors.farthest.texels), size = _texels;
     const auto texel = [size](const glm::dvec2& place) { return glm::ivec2(glm::clamp(place, 0.0, size)); };

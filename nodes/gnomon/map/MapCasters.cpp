@@ -81,11 +81,11 @@ MapPart partOf(const CasterMesh& mesh, std::size_t first, std::size_t end) {
 class CutoutBuilder {
 public:
     void add(const CasterMesh& mesh, const CasterExtraction::Cutout& cutout, const MapPart& part) {
-        const auto own = mesh.vertices->begin() + static_cast<std::ptrdiff_t>(cutout.firstVertex);
+        const auto first = mesh.vertices->begin() + static_cast<std::ptrdiff_t>(cutout.firstVertex);
         const auto places = static_cast<GLuint>(_vertices->size());
         for (std::size_t i = part.first; i < part.end; ++i)
             _triangles->push_back((*mesh.triangles)[i] - cutout.firstVertex + places);
-        _vertices->insert(_vertices->end(), own, own + static_cast<std::ptrdiff_t>(cutout.coordinates.size()));
+        _vertices->insert(_vertices->end(), first, first + static_cast<std::ptrdiff_t>(cutout.coordinates.size()));
         _coordinates->insert(_coordinates->end(), cutout.coordinates.begin(), cutout.coordinates.end());
     }
 
@@ -104,11 +104,11 @@ private:
     osg::ref_ptr<osg::DrawElementsUInt> _triangles = noTriangles();
 };
 
-std::vector<OwnCaster> ownCastersOf(const Casters& casters) {
+std::vector<SelfDrawnCaster> selfDrawnCastersOf(const Casters& casters) {
     const CasterLayers& layers = casters.layers();
-    std::vector<OwnCaster> result;
+    std::vector<SelfDrawnCaster> result;
     const glm::dmat4 sceneFromGroup = glm::translate(glm::dmat4(1.0), -toGlm(layers.origin));
-    for (const auto& drawing : casters.own) {
+    for (const auto& drawing : casters.selfDrawings) {
         const osg::BoundingBoxd& bounds = drawing->bounds;
         if (!bounds.valid()) continue;
         result.push_back({drawing,
@@ -155,7 +155,7 @@ MapMesh::MapMesh(const PlacedMesh& placed)
         const GLuint *begin = &mesh->triangles->front() + first, *behind = &mesh->triangles->front() + end;
         if (cutout != mesh->cutouts.end() && cutout->drawn == i) {
             const AlphaTest& test = cutout->test;
-            if (!cutout->ownDrawn)
+            if (!cutout->selfDrawn)
                 builders[{test.texture.get(), test.passing, test.sampledReference(), flat}].add(*mesh, *cutout,
                                                                                                 parts.back());
             ++cutout;
@@ -243,8 +243,8 @@ double MapLayer::clearanceOf(const glm::dvec3& lamp) const {
 }
 
 /// osgUtil::SceneView's set has the time and the view's matrices, and is at the root of all leaves.
-OwnCasters::OwnCasters(const std::vector<OwnCaster>& all, const glm::dmat4& matrix,
-                       const std::vector<const osgUtil::RenderLeaf*>& seen)
+SelfDrawnCasters::SelfDrawnCasters(const std::vector<SelfDrawnCaster>& all, const glm::dmat4& matrix,
+                                   const std::vector<const osgUtil::RenderLeaf*>& seen)
     : casters(all), eyeFromScene(matrix) {
     if (casters.empty() || seen.empty()) return;
     for (const osgUtil::StateGraph* graph = seen.front()->_parent; graph; graph = graph->_parent)
@@ -252,10 +252,10 @@ OwnCasters::OwnCasters(const std::vector<OwnCaster>& all, const glm::dmat4& matr
             states.insert(states.begin(), graph->getStateSet());
 }
 
-bool OwnCasters::areSame(const OwnCasters& other) const {
+bool SelfDrawnCasters::areSame(const SelfDrawnCasters& other) const {
     const bool sameView = eyeFromScene == other.eyeFromScene;
     return std::equal(casters.begin(), casters.end(), other.casters.begin(), other.casters.end(),
-                      [sameView](const OwnCaster& a, const OwnCaster& b) {
+                      [sameView](const SelfDrawnCaster& a, const SelfDrawnCaster& b) {
                           return a.drawing == b.drawing && a.sceneFromLocal == b.sceneFromLocal &&
                                  !a.drawing->mayChange && (sameView || !a.drawing->byProgram);
                       });
@@ -263,11 +263,11 @@ bool OwnCasters::areSame(const OwnCasters& other) const {
 
 MapCasters::MapCasters(const Casters& casters, const osg::ref_ptr<const MapLayer>& standing,
                        const osg::ref_ptr<const MapLayer>& others)
-    : of(&casters), layers(casters.layers()), still(standing), moving(others), own(ownCastersOf(casters)) {}
+    : of(&casters), layers(casters.layers()), still(standing), moving(others), selfDrawn(selfDrawnCastersOf(casters)) {}
 
 double MapCasters::clearanceOfMoving(const glm::dvec3& lamp) const {
     double nearest = moving->clearanceOf(lamp);
-    for (const OwnCaster& caster : own)
+    for (const SelfDrawnCaster& caster : selfDrawn)
         if (!caster.drawing->hasPiece) nearest = std::min(nearest, distance(caster.box, lamp));
     return nearest;
 }

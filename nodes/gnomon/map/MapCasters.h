@@ -112,26 +112,26 @@ protected:
 };
 
 /// A caster that draws itself, at its place in the scene.
-struct OwnCaster {
-    osg::ref_ptr<const OwnDrawing> drawing;
+struct SelfDrawnCaster {
+    osg::ref_ptr<const SelfDrawing> drawing;
     glm::dmat4 sceneFromLocal{1.0};
     MapBox box; ///< scene.
 };
 
 /// What maps show of them, and the view whose frame they are drawn for. Programs find its modelview, and uniforms that
 /// OpenSceneGraph gives views.
-struct OwnCasters {
-    OwnCasters() = default;
+struct SelfDrawnCasters {
+    SelfDrawnCasters() = default;
     /// @param seen  leaves of the view.
-    OwnCasters(const std::vector<OwnCaster>& all, const glm::dmat4& eyeFromScene,
-               const std::vector<const osgUtil::RenderLeaf*>& seen);
+    SelfDrawnCasters(const std::vector<SelfDrawnCaster>& all, const glm::dmat4& eyeFromScene,
+                     const std::vector<const osgUtil::RenderLeaf*>& seen);
 
-    std::vector<OwnCaster> casters;
+    std::vector<SelfDrawnCaster> casters;
     glm::dmat4 eyeFromScene{1.0};
     std::vector<osg::ref_ptr<const osg::StateSet>> states; ///< of the view, that belong to no node.
 
     /// True if they look as others do. What may change in each frame never does.
-    bool areSame(const OwnCasters& other) const;
+    bool areSame(const SelfDrawnCasters& other) const;
 };
 
 /// What casts below a group in one revision as maps draw it. Never changed once made.
@@ -142,7 +142,7 @@ struct MapCasters : public osg::Referenced {
     const osg::ref_ptr<const Casters> of;
     const CasterLayers& layers;                       ///< of them.
     const osg::ref_ptr<const MapLayer> still, moving; ///< never null.
-    const std::vector<OwnCaster> own;                 ///< those whose bounds are known; drawn with what moves.
+    const std::vector<SelfDrawnCaster> selfDrawn;     ///< those whose bounds are known; drawn with what moves.
 
     /// As MapLayer::clearanceOf(), of what moves; of what draws itself and has no known triangles the nearest box counts.
     double clearanceOfMoving(const glm::dvec3& lamp) const;

@@ -147,7 +147,7 @@ void MapFaces::findBlockers(Side& side) const {
     const Outlines moving = outlinesOf(*casters.moving, side.frame);
     MapOutline bodies = side.still.bodies;
     bodies.merge(moving.bodies);
-    for (const OwnCaster& caster : casters.own) bodies.addBox({caster.box.low, caster.box.high});
+    for (const SelfDrawnCaster& caster : casters.selfDrawn) bodies.addBox({caster.box.low, caster.box.high});
     if (wide || !areThin(side.frame)) add(bodies, {});
     const auto addFlats = [&](const Outlines& outlines, const MapLayer& layer) {
         for (std::size_t i = 0; i < outlines.flats.size(); ++i)
@@ -168,7 +168,8 @@ bool MapFaces::areThin(const LightFrame& frame) const {
     const MapCasters& casters = *_request.casters;
     const auto &still = casters.still->bodies, &moving = casters.moving->bodies;
     return std::all_of(still.begin(), still.end(), isBoxThin) && std::all_of(moving.begin(), moving.end(), isBoxThin) &&
-           std::all_of(casters.own.begin(), casters.own.end(), [&](const auto& own) { return isBoxThin(own.box); });
+           std::all_of(casters.selfDrawn.begin(), casters.selfDrawn.end(),
+                       [&](const auto& caster) { return isBoxThin(caster.box); });
 }
 
 void MapFaces::find(int texels) {

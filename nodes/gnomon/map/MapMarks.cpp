@@ -44,7 +44,10 @@ bool isOdd(const PixelRect& p) { return ((p.x | p.y | (p.x + p.width) | (p.y + p
 
 class SpotMark : public Mark {
 public:
-    SpotMark(const osg::ref_ptr<MapPrograms>& programs, const LookupView& view) : _programs(programs), _view(view) {}
+    SpotMark(const osg::ref_ptr<MapPrograms>& programs, const LookupPlaces& places)
+        : _programs(programs), _places(places) {
+        relightsOnly = true;
+    }
 
     std::string draw(ScreenPass& pass) const override {
         osg::State& state = pass.state();
@@ -60,16 +63,15 @@ public:
         setUniform(state, "rows", copy.rows);
         setUniform(state, "depthError", copy.error);
         setUniform(state, "coneFromPixel",
-                   *_view.coneFromScene * glm::inverse(_view.clipFromScene) * clipFromPixel(viewport));
+                   *_places.coneFromScene * glm::inverse(_places.clipFromScene) * clipFromPixel(viewport));
         pass.drawQuad();
         state.apply();
         return "";
     }
-    bool relightsOnly() const override { return true; }
 
 private:
     const osg::ref_ptr<MapPrograms> _programs;
-    const LookupView _view;
+    const LookupPlaces _places;
 };
 
 class ProgramMaps : public ProgramMark {
@@ -112,9 +114,11 @@ private:
 
 } // namespace
 
-MapLookup::MapLookup(const MapLooks& looks, const LookupView& view, const MapsInView& maps)
-    : _looks(looks), _view(view), _maps(maps) {
+MapLookup::MapLookup(const ShadowMapOptions& options, const LookupPlaces& places, const MapsInView& maps)
+    : _options(options), _places(places), _maps(maps) {
     screenBounds = maps.bounds;
+    canDarken = true;
+    hasDebugView = options.view != ShadowMapOptions::NOTHING;
 }
 
 std::string MapLookup::draw(ScreenPass& pass) const {
@@ -127,20 +131,20 @@ std::string MapLookup::draw(ScreenPass& pass) const {
     if (!cause.empty()) return cause;
     FrameDepthCopy::Copy copy = _maps.programs->seen.copy(state, pixels);
     if (!copy.cause.empty()) return copy.cause;
-    copy.error.x *= 1.0 + _view.pushedBack.y;
-    copy.error.y += _view.pushedBack.x;
-    MapUse marking = use();
+    copy.error.x *= 1.0 + _places.pushedBack.y;
+    copy.error.y += _places.pushedBack.x;
+    MapUse marking = use(false);
     const bool penumbra = _maps.picture->tiles.front().spread.penumbra.x > 0.0;
     const std::string lack = penumbra ? _maps.map->updateBlocks(state, *_maps.programs) : "";
     marking.penumbra = penumbra && lack.empty();
     marking.odd = isOdd(pixels);
     marking.interlaced = pass.isInterlaced();
-    const MapConstants constants = constantsOf(state, copy, wantedOf(pass, kind() == Kind::Fades), pixels);
+    const MapConstants constants = constantsOf(state, copy, wantedOf(pass, _options.fades()), pixels);
     state.apply(_maps.programs->program(marking, constants).get());
     if (!hasProgram(state)) return noProgram;
     _maps.map->bind(state, mapUnit); // after the program: osg::State takes textures away that are in none of its sets
     setUniform(state, "maps", int(mapUnit));
-    if (_looks.lookup == Lookup::Soft) setUniform(state, "mapCount", int(_maps.picture->tiles.size()));
+    if (_options.edges == ShadowMapOptions::SOFT) setUniform(state, "mapCount", int(_maps.picture->tiles.size()));
     setSeen(state, copy, constants);
     std::optional<UncomparedSampler> raw;
     if (marking.penumbra) {
@@ -151,7 +155,9 @@ std::string MapLookup::draw(ScreenPass& pass) const {
         setUniform(state, "depths", int(rawUnit));
     }
     pass.testDepth(GL_GREATER); // where something is seen
-    pass.testAlpha();           // and is wanted
+    glEnable(
+        GL_ALPHA_TEST); // and is wanted: `discard` costs on llvmpipe, which skips blocks of which nothing passes, but
+    glAlphaFunc(GL_LESS, 1.0f); // no block of a program that discards
     drawPolygon(state, _maps.outline, 1.0);
     glDisable(GL_ALPHA_TEST);
     glDisable(GL_DEPTH_TEST);
@@ -160,12 +166,12 @@ std::string MapLookup::draw(ScreenPass& pass) const {
     return lack;
 }
 
-MapUse MapLookup::use() const {
+MapUse MapLookup::use(bool shows) const {
     MapUse use;
-    use.filter = _looks.filter;
-    use.lookup = _looks.lookup;
+    use.options = _options;
+    use.shows = shows;
     use.cascades = _maps.picture->divided;
-    use.cone = _view.coneFromScene.has_value();
+    use.cone = _places.coneFromScene.has_value();
     return use;
 }
 
@@ -173,7 +179,7 @@ MapUse MapLookup::use() const {
 /// @param wanted  see map.frag.
 MapConstants MapLookup::constantsOf(const osg::State& state, const FrameDepthCopy::Copy& copy, const glm::dvec4& wanted,
                                     const PixelRect& pixels) const {
-    const glm::dmat4 sceneFromPixel = glm::inverse(_view.clipFromScene) * clipFromPixel(*state.getCurrentViewport());
+    const glm::dmat4 sceneFromPixel = glm::inverse(_places.clipFromScene) * clipFromPixel(*state.getCurrentViewport());
     MapConstants constants;
     constants.add("depthError", copy.error);
     constants.add("texelAndRows", glm::dvec4(1.0 / glm::dvec2(_maps.map->size), copy.rows));
@@ -181,7 +187,7 @@ MapConstants MapLookup::constantsOf(const osg::State& state, const FrameDepthCop
     constants.add("seenPixels",
                   glm::dvec4(pixels.x, pixels.y, pixels.x + pixels.width - 1, pixels.y + pixels.height - 1));
     constants.add("drawnError", drawnErrorOf(state, sceneFromPixel));
-    if (_view.coneFromScene) constants.add("coneFromPixel", *_view.coneFromScene * sceneFromPixel);
+    if (_places.coneFromScene) constants.add("coneFromPixel", *_places.coneFromScene * sceneFromPixel);
     for (const MapPicture::Tile& tile : _maps.picture->tiles) {
         const glm::dmat4 mapFromPixel = tile.mapFromScene * sceneFromPixel, pixelFromMap = glm::inverse(mapFromPixel);
         constants.beginMap(mapFromPixel);
@@ -191,7 +197,7 @@ MapConstants MapLookup::constantsOf(const osg::State& state, const FrameDepthCop
         constants.addOfMap("pixelFromMapZ", pixelFromMap[2]);
         constants.addOfMap("nearestError", errorOf(tile.errors.nearest, tile.spread.penumbra.x));
         constants.addOfMap("farthestError", errorOf(tile.errors.farthest, tile.spread.penumbra.y));
-        if (_looks.lookup == Lookup::Soft)
+        if (_options.edges == ShadowMapOptions::SOFT)
             constants.addOfMap("discs", glm::dvec4(tile.spread.nearest, tile.spread.farthest));
     }
     return constants;
@@ -201,7 +207,7 @@ MapConstants MapLookup::constantsOf(const osg::State& state, const FrameDepthCop
 glm::dvec4 MapLookup::drawnErrorOf(const osg::State& state, const glm::dmat4& sceneFromPixel) const {
     const osg::Viewport& viewport = *state.getCurrentViewport();
     const DrawnError off =
-        drawnError(_view.clipFromScene, toGlm(state.getProjectionMatrix()), viewport.width(), _view.rounding, 0.0);
+        drawnError(_places.clipFromScene, toGlm(state.getProjectionMatrix()), viewport.width(), _places.rounding, 0.0);
     const glm::dvec4 row = off.depth * glm::row(sceneFromPixel, 3);
     const auto most = [](double change, double start, double size) {
         return std::max(change * start, change * (start + size));
@@ -210,16 +216,15 @@ glm::dvec4 MapLookup::drawnErrorOf(const osg::State& state, const glm::dmat4& sc
     return {row.w + beside, row.z, off.depth > 0.0 ? off.pixels / off.depth : 0.0, reachedOver / _maps.picture->size};
 }
 
-void MapLookup::drawView(ScreenPass& pass, int before) const {
+void MapLookup::drawDebugView(ScreenPass& pass, int before) const {
     osg::State& state = pass.state();
-    const bool ofMaps = _looks.view == ShadowMapOptions::MAP;
+    const bool ofMaps = _options.view == ShadowMapOptions::MAP;
     if (!ofMaps && before > 0) return;
     if (!_maps.show(pass.renderInfo()).empty()) return; // which marking has said
     FrameDepthCopy::Copy copy;
     if (!ofMaps) copy = _maps.programs->seen.copy(state, pixelsInScissor(*state.getCurrentViewport()));
     if (!copy.cause.empty()) return; // the same
-    MapUse showing = use();
-    showing.view = _looks.view;
+    const MapUse showing = use(true);
     const MapConstants constants = constantsOf(state, copy, {}, {});
     state.apply(_maps.programs->program(showing, constants).get());
     if (!hasProgram(state)) return;
@@ -248,8 +253,8 @@ void MapLookup::drawPicture(osg::State& state, ScreenPass& pass, int before) con
     pass.drawQuad();
 }
 
-osg::ref_ptr<Mark> spotMark(const osg::ref_ptr<MapPrograms>& programs, const LookupView& view) {
-    return new SpotMark(programs, view);
+osg::ref_ptr<Mark> spotMark(const osg::ref_ptr<MapPrograms>& programs, const LookupPlaces& places) {
+    return new SpotMark(programs, places);
 }
 
 osg::ref_ptr<Mark> programMaps(int textureUnit, const std::optional<MapsInView>& maps, const glm::dmat4& sceneFromEye) {

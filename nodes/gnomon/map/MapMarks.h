@@ -16,8 +16,8 @@
 
 namespace gnomon {
 
-/// A view, as marks of maps find places in it.
-struct LookupView {
+/// How marks of maps find places in a view.
+struct LookupPlaces {
     glm::dmat4 clipFromScene{1.0};           ///< as drawn; the scene is about the casters' origin.
     std::optional<glm::dmat4> coneFromScene; ///< of a spot: what is not in its cone gets no marks.
     glm::dvec2 pushedBack{0.0};              ///< see ViewFrame.
@@ -36,44 +36,35 @@ struct MapsInView {
     std::string show(osg::RenderInfo& renderInfo) const { return map->show(renderInfo, *picture, *programs); }
 };
 
-/// How they are looked up.
-struct MapLooks {
-    Lookup lookup = Lookup::Hard;
-    ShadowMapOptions::Filter filter = ShadowMapOptions::BICUBIC;
-    ShadowMapOptions::View view = ShadowMapOptions::NOTHING;
-};
-
 /// Marks of one light in one view: where less of it arrives than the pass wants, by what the depth buffer says is seen there, and
 /// the light's maps.
 class MapLookup : public Mark {
 public:
-    MapLookup(const MapLooks& looks, const LookupView& view, const MapsInView& maps);
+    MapLookup(const ShadowMapOptions& options, const LookupPlaces& places, const MapsInView& maps);
 
-    Kind kind() const override { return _looks.lookup == Lookup::Hard ? Kind::Hard : Kind::Fades; }
+    Kind kind() const override { return _options.fades() ? Kind::Fades : Kind::Hard; }
     /// Draws the map first, if that is due.
     std::string draw(ScreenPass& pass) const override;
-    bool canDarken() const override { return true; }
-    bool hasView() const override { return _looks.view != ShadowMapOptions::NOTHING; }
     /// How the maps lie; of texels and cascades those of the first light alone.
-    void drawView(ScreenPass& pass, int before) const override;
+    void drawDebugView(ScreenPass& pass, int before) const override;
 
 protected:
     ~MapLookup() override = default;
 
 private:
-    MapUse use() const;
+    MapUse use(bool shows) const;
     MapConstants constantsOf(const osg::State& state, const FrameDepthCopy::Copy& copy, const glm::dvec4& wanted,
                              const PixelRect& pixels) const;
     glm::dvec4 drawnErrorOf(const osg::State& state, const glm::dmat4& sceneFromPixel) const;
     void drawPicture(osg::State& state, ScreenPass& pass, int before) const;
 
-    const MapLooks _looks;
-    const LookupView _view;
+    const ShadowMapOptions _options;
+    const LookupPlaces _places;
     const MapsInView _maps;
 };
 
 /// Marks of one spot in one view: what of all that is seen is not in its cone.
-osg::ref_ptr<Mark> spotMark(const osg::ref_ptr<MapPrograms>& programs, const LookupView& view);
+osg::ref_ptr<Mark> spotMark(const osg::ref_ptr<MapPrograms>& programs, const LookupPlaces& places);
 
 /// A light's maps, as programs of a view's drawables find them: see visibility.glsl.
 /// @param maps  none: all of the light arrives.

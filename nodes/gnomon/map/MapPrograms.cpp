@@ -18,25 +18,28 @@ constexpr std::size_t placing = 4;              // vectors a map, by which a pix
 constexpr const char* comparing[] = {"", "", "#define BICUBIC\n#define SAMPLES 4.0\n",
                                      "#define BICUBIC\n#define FINE\n#define SAMPLES 16.0\n"};
 
-/// By Lookup.
+/// By ShadowMapOptions::Edges.
 constexpr const char* edges[] = {"#define HALVES\n", "#define SMOOTH\n", "#define SOFT\n"};
+
+bool isSoft(const MapUse& use) { return use.options.edges == ShadowMapOptions::SOFT; }
 
 std::string definesOf(const MapUse& use) {
     const auto ifSo = [](bool is, const char* define) { return std::string(is ? define : ""); };
     std::string defines =
-        comparing[use.filter] + ifSo(use.cascades, "#define CASCADES\n") + ifSo(use.cone, "#define CONE\n");
-    if (use.view != ShadowMapOptions::NOTHING)
-        return defines + ifSo(use.view == ShadowMapOptions::MAP, "#define PICTURE\n") +
-               ifSo(use.view == ShadowMapOptions::TEXELS, "#define TEXELS\n");
-    return defines + edges[int(use.lookup)] + ifSo(use.penumbra, "#define PENUMBRA\n") +
-           ifSo(use.odd, "#define ODD\n") + ifSo(use.interlaced, "#define INTERLACED\n");
+        comparing[use.options.filter] + ifSo(use.cascades, "#define CASCADES\n") + ifSo(use.cone, "#define CONE\n");
+    if (use.shows)
+        return defines + ifSo(use.options.view == ShadowMapOptions::MAP, "#define PICTURE\n") +
+               ifSo(use.options.view == ShadowMapOptions::TEXELS, "#define TEXELS\n");
+    return defines + edges[use.options.fades() ? use.options.edges : ShadowMapOptions::HARD] +
+           ifSo(use.penumbra, "#define PENUMBRA\n") + ifSo(use.odd, "#define ODD\n") +
+           ifSo(use.interlaced, "#define INTERLACED\n");
 }
 
 /// In this order: each begins with what it knows of those before it.
 std::string textOf(const MapUse& use) {
-    if (use.view != ShadowMapOptions::NOTHING) return std::string(shaders::map_place_frag) + shaders::map_view_frag;
+    if (use.shows) return std::string(shaders::map_place_frag) + shaders::map_view_frag;
     return std::string(shaders::map_place_frag) + shaders::cone_frag + shaders::map_filter_frag +
-           (use.lookup == Lookup::Soft ? shaders::map_soft_frag : "") + shaders::map_lie_frag + shaders::map_frag;
+           (isSoft(use) ? shaders::map_soft_frag : "") + shaders::map_lie_frag + shaders::map_frag;
 }
 
 std::string define(const std::string& name, const std::string& value) { return "#define " + name + " " + value + "\n"; }
@@ -99,9 +102,9 @@ MapPrograms::MapPrograms()
 
 /// Soft edges look at one map after the other.
 osg::ref_ptr<const osg::StateSet> MapPrograms::program(const MapUse& use, const MapConstants& constants) {
-    const std::string defines = definesOf(use) + constants.defines(use.lookup == Lookup::Soft);
+    const std::string defines = definesOf(use) + constants.defines(isSoft(use));
     Lock lock(_mutex);
-    osg::ref_ptr<osg::StateSet>& set = _programs[(use.view != ShadowMapOptions::NOTHING ? "view " : "") + defines];
+    osg::ref_ptr<osg::StateSet>& set = _programs[(use.shows ? "view " : "") + defines];
     if (!set) set = quadProgram("gnomon map", defines, textOf(use).c_str());
     return set;
 }

@@ -17,18 +17,10 @@
 
 namespace gnomon {
 
-/// How wide an edge comes out of a look-up.
-enum class Lookup {
-    Hard,   ///< half of the light is all of it.
-    Smooth, ///< as wide as a pixel.
-    Soft    ///< as wide as the filter, a disc or a penumbra.
-};
-
 /// What a program that looks a light's maps up is for.
 struct MapUse {
-    ShadowMapOptions::View view = ShadowMapOptions::NOTHING; ///< what it shows; NOTHING: it marks.
-    ShadowMapOptions::Filter filter = ShadowMapOptions::BICUBIC;
-    Lookup lookup = Lookup::Hard;
+    ShadowMapOptions options;
+    bool shows = false;      ///< draws the debug view; else it marks.
     bool cascades = false;   ///< see MapPicture::divided.
     bool cone = false;       ///< there are no marks outside a spot's cone.
     bool penumbra = false;   ///< blocks tell how far off what blocks the light is, see DepthMap.

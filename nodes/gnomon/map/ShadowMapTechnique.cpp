@@ -151,19 +151,16 @@ std::vector<osg::ref_ptr<Mark>> ShadowMapTechnique::prepare(const ViewFrame& vie
         _maps->update(view, light.number, {*usable, cone, drawn, MapSettings(_options)});
     if (_options.programUnit >= 0)
         return {programMaps(_options.programUnit, maps, glm::inverse(scene.eyeFromScene(view)))};
-    LookupView places{toGlm(view.projection) * scene.eyeFromScene(view),
+    LookupPlaces places{toGlm(view.projection) * scene.eyeFromScene(view),
                       std::nullopt,
                       {view.pushedBack.x(), view.pushedBack.y()},
                       drawn->layers.rounding};
     if (cone) places.coneFromScene = coneFromScene(glm::dvec3(*usable), *cone);
-    const Lookup lookup = !_options.fades()                            ? Lookup::Hard
-                          : _options.edges == ShadowMapOptions::SMOOTH ? Lookup::Smooth
-                                                                       : Lookup::Soft;
     std::vector<osg::ref_ptr<Mark>> marks;
     if (cone && view.group->getComposite() == ShadowCasterGroup::RELIGHT)
         marks.push_back(spotMark(_maps->programs, places));
     if (maps) // else out of sight: nothing to say
-        marks.push_back(new MapLookup({lookup, _options.filter, _options.view}, places, *maps));
+        marks.push_back(new MapLookup(_options, places, *maps));
     return marks;
 }
 

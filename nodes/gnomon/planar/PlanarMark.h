@@ -51,8 +51,6 @@ public:
 
     /// True if the leaf's box comes to the plane but for a hundredth of its size.
     bool canReach(const osgUtil::RenderLeaf& leaf) const override;
-    /// Those are marked that lie as far off the plane as what lies in it may be drawn.
-    double depthSteps() const override { return cutToPlane ? tolerance.y : 0.0; }
     std::string draw(ScreenPass& pass) const override;
 
 protected:

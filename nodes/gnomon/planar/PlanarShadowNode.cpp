@@ -237,6 +237,7 @@ osg::ref_ptr<Mark> PlanarShadowNode::prepareOne(const ViewFrame& view, const Sha
     if (!bounds || !depth || !eyePlane) return nullptr; // out of sight: nothing to say
     mark->eyePlane = *eyePlane;
     mark->cutToPlane = !_cures.stencil || !receiverLiesIn(view, *eyePlane);
+    mark->depthSteps = mark->cutToPlane ? PlanarMark::tolerance.y : 0.0; // so far off the plane is what may lie in it
     if (mark->cutToPlane) followOffsets(*mark, view);
     mark->screenBounds = *bounds;
     mark->depth = *depth;

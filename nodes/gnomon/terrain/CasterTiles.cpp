@@ -176,8 +176,8 @@ std::vector<CasterList> CasterTiles::weld(CasterList loose) {
     for (std::size_t i = 0; i < loose.size(); ++i) units[first[i]].push_back(all[i]);
     for (std::size_t i = loose.size(); i < all.size(); ++i) {
         const auto unit = units.find(first[i]);
-        const unsigned own = _places[all[i].get()].unit;
-        if (unit != units.end() && own != 0) dissolve(own, unit->second);
+        const unsigned former = _places[all[i].get()].unit;
+        if (unit != units.end() && former != 0) dissolve(former, unit->second);
     }
     std::vector<CasterList> result;
     for (auto& [root, unit] : units) result.push_back(std::move(unit));

@@ -96,7 +96,7 @@ std::string sentenceOf(HullOutcome outcome) {
 } // namespace
 
 TileView::TileView(const ViewFrame& view, const glm::dvec3& origin)
-    : _filter(view.options.filter),
+    : _skipsUntouched(view.options.skipsUntouched),
       _clipFromScene(SceneFrame(origin).clipFromScene(view)),
       _mostPixels(mostPixelsOf(_clipFromScene, view.pixels)) {}
 
@@ -110,14 +110,14 @@ TileView::Shown TileView::shown(const HullSolids& solids) const {
     const auto bounds = screenBounds(points);
     const bool isBeforeEye = nearest > 0.0;
     const double pixels = isBeforeEye ? _mostPixels / nearest : infinite;
-    if (!_filter) return {bounds.value_or(ScreenRect{{1.0, 1.0}, {-1.0, -1.0}}), infinite, isBeforeEye};
+    if (!_skipsUntouched) return {bounds.value_or(ScreenRect{{1.0, 1.0}, {-1.0, -1.0}}), infinite, isBeforeEye};
     const bool isTooSmall = solids.widest * pixels < leastPixels;
     return {isTooSmall ? std::nullopt : bounds, pixels, isBeforeEye};
 }
 
 bool TileView::maySeeShadowsOf(const glm::dvec3& low, const glm::dvec3& high, const glm::dvec4& light,
                                double lowest) const {
-    if (!_filter || !isSun(light)) return true;
+    if (!_skipsUntouched || !isSun(light)) return true;
     const double fall = std::max(0.0, high.z - lowest);
     const glm::dvec3 way = -glm::dvec3(light) / light.z * fall; // of the highest, to the lowest ground
     std::array<glm::dvec4, 16> corners;

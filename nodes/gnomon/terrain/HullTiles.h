@@ -27,7 +27,7 @@ protected:
     ~TileShadows() override = default;
 };
 
-/// What a view shows of shadows on terrain. With CompositorOptions::filter off all counts as seen, and as seen exactly.
+/// What a view shows of shadows on terrain. With CompositorOptions::skipsUntouched off all counts as seen, and as seen exactly.
 class TileView {
 public:
     /// @param origin  of the tiles' scene, see SceneFrame.
@@ -45,7 +45,7 @@ public:
     bool maySeeShadowsOf(const glm::dvec3& low, const glm::dvec3& high, const glm::dvec4& light, double lowest) const;
 
 private:
-    const bool _filter;
+    const bool _skipsUntouched;
     const glm::dmat4 _clipFromScene;
     double _mostPixels = 0.0; ///< that a length of 1 can be where w is 1.
 };

@@ -157,7 +157,7 @@ std::vector<osg::ref_ptr<Mark>> TerrainShadowGeode::prepare(const ViewFrame& vie
     mark->program = _program;
     mark->clipFromScene = seen.clipFromScene();
     mark->sceneFromEye = SceneFrame(frame.origin).sceneFromEye(view);
-    mark->testsBoxes = view.options.filter;
+    mark->testsBoxes = view.options.skipsUntouched;
     for (const auto& shadows : frame.tiles) {
         const TileView::Shown shown = shadows ? seen.shown(shadows->solids) : TileView::Shown();
         if (!shown.bounds) continue;

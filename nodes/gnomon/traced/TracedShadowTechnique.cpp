@@ -104,8 +104,7 @@ public:
     double rounding = 0.0;                   ///< of the casters' vertices.
     glm::dvec2 pushedBack{0.0};              ///< see ViewFrame.
 
-    /// Rays find the surface within what a depth may mean.
-    double depthSteps() const override { return 0.0; }
+    TracedMark() { depthSteps = 0.0; } ///< Rays find the surface within what a depth may mean.
     std::string draw(ScreenPass& pass) const override;
 
 protected:

@@ -20,12 +20,10 @@ public:
     SeenVolumes seen;
     osg::ref_ptr<const osg::StateSet> program;
     glm::dvec2 pushedBack{0.0}; ///< see ViewFrame.
-    bool showsVolumes = false;
 
     Kind kind() const override { return Kind::Counts; }
     std::string draw(ScreenPass& pass) const override;
-    bool hasView() const override { return showsVolumes; }
-    void drawView(ScreenPass& pass, int before) const override;
+    void drawDebugView(ScreenPass& pass, int before) const override;
 
 protected:
     ~VolumeMark() override = default;
@@ -121,7 +119,11 @@ std::string VolumeMark::draw(ScreenPass& pass) const {
     const std::vector<VolumeRound> rounds = seen.rounds(capacity);
     if (!pass.counters() && rounds.size() > 1) return noCounter;
     for (const VolumeRound& round : rounds) {
-        if (round.holding) pass.setCount(counters, static_cast<unsigned>(round.holding));
+        if (round.holding) { // what all pixels begin with
+            glDisable(GL_DEPTH_TEST);
+            pass.stencilEqual(static_cast<unsigned>(round.holding), 0, counters);
+            pass.drawQuad();
+        }
         state.apply(program.get());
         if (!hasProgram(state)) return noProgram;
         for (const auto& [mesh, share] : round.shares) count(pass, counters, seen.meshes[mesh], share);
@@ -136,7 +138,7 @@ std::string VolumeMark::draw(ScreenPass& pass) const {
     return seen.overflow(capacity) ? overflow : "";
 }
 
-void VolumeMark::drawView(ScreenPass& pass, int) const {
+void VolumeMark::drawDebugView(ScreenPass& pass, int) const {
     osg::State& state = pass.state();
     state.apply(program.get());
     if (!hasProgram(state)) return;
@@ -199,7 +201,7 @@ std::vector<osg::ref_ptr<Mark>> ShadowVolumeTechnique::prepare(const ViewFrame& 
     mark->screenBounds = mark->seen.bounds;
     mark->program = _cache->program;
     mark->pushedBack = {view.pushedBack.x(), view.pushedBack.y()};
-    mark->showsVolumes = _options.view == VOLUMES;
+    mark->hasDebugView = _options.view == VOLUMES;
     return {mark};
 }
 

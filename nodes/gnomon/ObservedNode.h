@@ -22,17 +22,17 @@ namespace gnomon {
 /// - A copied graph that is changed above its owner before its first frame may keep naming the original's node.
 /// Threads
 /// - Any number.
-class GNOMON_EXPORT NodeReference {
+class GNOMON_EXPORT ObservedNode {
 public:
     /// Names a node, or none.
-    NodeReference(osg::Node* node = nullptr);
+    ObservedNode(osg::Node* node = nullptr);
     /// For a copy of `owner`, whose reference `other` is.
-    NodeReference(const NodeReference& other, const osg::Node& owner);
+    ObservedNode(const ObservedNode& other, const osg::Node& owner);
     /// For the same owner.
-    NodeReference(const NodeReference& other);
+    ObservedNode(const ObservedNode& other);
     /// For the same owner.
-    NodeReference& operator=(const NodeReference& other);
-    ~NodeReference();
+    ObservedNode& operator=(const ObservedNode& other);
+    ~ObservedNode();
 
     /// The node that `owner` names; null if none is named or it is gone.
     osg::ref_ptr<osg::Node> in(const osg::Node& owner) const;
@@ -58,15 +58,15 @@ private:
     bool _names = false;
 };
 
-/// A Selection that a node names, as NodeReference does.
-class GNOMON_EXPORT SelectionReference {
+/// A Selection that a node names, as ObservedNode does.
+class GNOMON_EXPORT ObservedSelection {
 public:
     /// Everything.
-    SelectionReference() = default;
+    ObservedSelection() = default;
     /// The same part.
-    SelectionReference(const Selection& selection);
+    ObservedSelection(const Selection& selection);
     /// For a copy of `owner`.
-    SelectionReference(const SelectionReference& other, const osg::Node& owner);
+    ObservedSelection(const ObservedSelection& other, const osg::Node& owner);
 
     /// The part that `owner` names, without nodes that are gone. Null and the mask 0, which select nothing, if all are.
     Selection in(const osg::Node& owner) const;
@@ -74,7 +74,7 @@ public:
     bool isGone(const osg::Node& owner) const;
 
 private:
-    std::vector<NodeReference> _nodes;
+    std::vector<ObservedNode> _nodes;
     osg::Node::NodeMask _mask = ~0u;
 };
 

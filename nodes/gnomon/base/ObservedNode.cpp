@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/NodeReference.h>
+#include <gnomon/ObservedNode.h>
 
 #include <OpenThreads/ScopedLock>
 #include <osg/Group>
@@ -47,9 +47,9 @@ unsigned childAmong(const osg::Group& group, const Nodes& nodes) {
 
 } // namespace
 
-NodeReference::NodeReference(osg::Node* node) : _node(node), _names(node != nullptr) {}
+ObservedNode::ObservedNode(osg::Node* node) : _node(node), _names(node != nullptr) {}
 
-NodeReference::NodeReference(const NodeReference& other, const osg::Node& owner) : _names(other._names) {
+ObservedNode::ObservedNode(const ObservedNode& other, const osg::Node& owner) : _names(other._names) {
     const osg::ref_ptr<osg::Node> named = other.in(owner);
     _node = named;
     Lock lock(other._mutex);
@@ -59,15 +59,15 @@ NodeReference::NodeReference(const NodeReference& other, const osg::Node& owner)
         _way = wayFrom(owner, *named);
 }
 
-NodeReference::NodeReference(const NodeReference& other) : _names(other._names) {
+ObservedNode::ObservedNode(const ObservedNode& other) : _names(other._names) {
     Lock lock(other._mutex);
     _node = other._node;
     _way = other._way;
 }
 
-NodeReference& NodeReference::operator=(const NodeReference& other) {
+ObservedNode& ObservedNode::operator=(const ObservedNode& other) {
     if (this == &other) return *this;
-    const NodeReference copy(other);
+    const ObservedNode copy(other);
     Lock lock(_mutex);
     _node = copy._node;
     _way = copy._way;
@@ -75,9 +75,9 @@ NodeReference& NodeReference::operator=(const NodeReference& other) {
     return *this;
 }
 
-NodeReference::~NodeReference() = default;
+ObservedNode::~ObservedNode() = default;
 
-NodeReference::Way NodeReference::wayFrom(const osg::Node& owner, osg::Node& named) {
+ObservedNode::Way ObservedNode::wayFrom(const osg::Node& owner, osg::Node& named) {
     Nodes aboveNamed, level{&owner};
     addWithAbove(named, aboveNamed);
     Way way;
@@ -94,7 +94,7 @@ NodeReference::Way NodeReference::wayFrom(const osg::Node& owner, osg::Node& nam
     return way;
 }
 
-osg::Node* NodeReference::endOf(const Way& way, const osg::Node& top) {
+osg::Node* ObservedNode::endOf(const Way& way, const osg::Node& top) {
     osg::Node* node = const_cast<osg::Node*>(&top);
     for (const unsigned child : way.down) {
         osg::Group* group = node->asGroup();
@@ -105,7 +105,7 @@ osg::Node* NodeReference::endOf(const Way& way, const osg::Node& top) {
 }
 
 /// Until the copy of the owner has the parents that the way leads up by.
-void NodeReference::followCopy(const osg::Node& owner) const {
+void ObservedNode::followCopy(const osg::Node& owner) const {
     Nodes level{&owner};
     for (unsigned i = 0; i < _way.up; ++i) level = parentsOf(level);
     osg::Node* found = nullptr;
@@ -118,29 +118,29 @@ void NodeReference::followCopy(const osg::Node& owner) const {
     _way = {};
 }
 
-osg::ref_ptr<osg::Node> NodeReference::in(const osg::Node& owner) const {
+osg::ref_ptr<osg::Node> ObservedNode::in(const osg::Node& owner) const {
     Lock lock(_mutex);
     if (!_way.kind.empty()) followCopy(owner);
     return node();
 }
 
-osg::ref_ptr<osg::Node> NodeReference::node() const {
+osg::ref_ptr<osg::Node> ObservedNode::node() const {
     osg::ref_ptr<osg::Node> node;
     _node.lock(node);
     return node;
 }
 
-SelectionReference::SelectionReference(const Selection& selection) : _mask(selection.mask) {
+ObservedSelection::ObservedSelection(const Selection& selection) : _mask(selection.mask) {
     for (const osg::ref_ptr<osg::Node>& node : selection.roots()) _nodes.emplace_back(node.get());
 }
 
-SelectionReference::SelectionReference(const SelectionReference& other, const osg::Node& owner) : _mask(other._mask) {
-    for (const NodeReference& node : other._nodes) _nodes.emplace_back(node, owner);
+ObservedSelection::ObservedSelection(const ObservedSelection& other, const osg::Node& owner) : _mask(other._mask) {
+    for (const ObservedNode& node : other._nodes) _nodes.emplace_back(node, owner);
 }
 
-Selection SelectionReference::in(const osg::Node& owner) const {
+Selection ObservedSelection::in(const osg::Node& owner) const {
     Selection selection{nullptr, _mask};
-    for (const NodeReference& named : _nodes) {
+    for (const ObservedNode& named : _nodes) {
         const osg::ref_ptr<osg::Node> node = named.in(owner);
         if (node && selection.node)
             selection.others.push_back(node);
@@ -151,6 +151,6 @@ Selection SelectionReference::in(const osg::Node& owner) const {
     return selection;
 }
 
-bool SelectionReference::isGone(const osg::Node& owner) const { return !_nodes.empty() && !in(owner).node; }
+bool ObservedSelection::isGone(const osg::Node& owner) const { return !_nodes.empty() && !in(owner).node; }
 
 } // namespace gnomon
