@@ -348,7 +348,7 @@ TEST(EdgeErrors, OfOnePlaceAPixelAreNoWorseThanThoseOfMapsThatLoseAsMuch) {
 
 // Stripes that rise so, each with another place in its pixels, as one place a pixel decides, and as their area does.
 TEST(EdgeErrors, OfOnePlaceAPixelAreThatOfStripesThatRiseSo) {
-    constexpr int width = 48, height = 2000, places = 15; // pixels; places each way of which the area is counted
+    constexpr int width = 48, height = 800, places = 15; // pixels; places each way of which the area is counted
     constexpr double pitch = 10.0 + 0.618;
     for (const double rise : {0.0, 0.05, 0.125, 0.25, 0.4, 0.5, 0.7, 0.9, 1.0}) {
         const auto isLit = [&](double x, double y) { return std::fmod(y + 100.0 - rise * x, 2.0 * pitch) < pitch; };

@@ -39,9 +39,10 @@ osg::Vec2d onScreen(const View& view, const osg::Vec3d& place) {
 double offset(const Picture& shadowed, const Picture& lit, const View& view) {
     constexpr double half = 4.0, beside = 0.4; // metres
     int more = 0;
+    const Sights sights(view);
     for (int y = 0; y < view.height; ++y)
         for (int x = 0; x < view.width; ++x) {
-            const Sight seen = sight(view, x + 0.5, y + 0.5);
+            const Sight seen = sights.at(x + 0.5, y + 0.5);
             const glm::dvec3 place = seen.from - seen.way * (seen.from.z / seen.way.z);
             if (std::abs(place.y) > half || std::abs(place.x - shadowEnd) > beside) continue;
             const bool dark = shadowed.at(x, y) != lit.at(x, y);
@@ -90,7 +91,7 @@ osg::Matrixd turned(int frame) { return osg::Matrixd::rotate(osg::DegreesToRadia
 constexpr double mostCrawl = 0.02; // pixels; the goal
 
 TEST(MapStability, EdgesDoNotCrawlWhileTheCameraMovesAndTurnsByPartsOfAPixel) {
-    for (const int size : {64, 128, 2048})
+    for (const int size : {64, 2048})
         for (const auto& [name, step] : {std::pair("aside", &aside), {"ahead", &ahead}, {"turned", &turned}}) {
             const Crawl found = crawlOf(size, step);
             std::cout << size << ", " << name << ": " << found << "\n";

@@ -3,6 +3,7 @@
 #include <support/Panels.h>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 #include <osg/CullFace>
 #include <osg/Geode>
@@ -51,15 +52,20 @@ osg::ref_ptr<osg::Group> group(const std::vector<Panel>& panels) {
     return all;
 }
 
-Sight sight(const View& view, double x, double y) {
-    const glm::dmat4 worldFromClip = glm::inverse(gnomon::toGlm(view.view * view.projection));
-    const auto at = [&](double depth) {
-        const glm::dvec4 point =
-            worldFromClip * glm::dvec4(2.0 * x / view.width - 1.0, 2.0 * y / view.height - 1.0, depth, 1.0);
+Sights::Sights(const View& view)
+    : _worldFromWindow(glm::inverse(gnomon::toGlm(view.view * view.projection)) *
+                       glm::translate(glm::dmat4(1.0), glm::dvec3(-1.0, -1.0, 0.0)) *
+                       glm::scale(glm::dmat4(1.0), glm::dvec3(2.0 / view.width, 2.0 / view.height, 1.0))) {}
+
+Sight Sights::at(double x, double y) const {
+    const auto atDepth = [&](double depth) {
+        const glm::dvec4 point = _worldFromWindow * glm::dvec4(x, y, depth, 1.0);
         return glm::dvec3(point) / point.w;
     };
-    return {at(-1.0), glm::normalize(at(1.0) - at(-1.0))};
+    return {atDepth(-1.0), glm::normalize(atDepth(1.0) - atDepth(-1.0))};
 }
+
+Sight sight(const View& view, double x, double y) { return Sights(view).at(x, y); }
 
 std::optional<Met> meet(const Sight& sight, const std::vector<Panel>& panels,
                         const std::function<bool(const Panel&)>& counts) {
@@ -76,9 +82,10 @@ std::optional<Met> meet(const Sight& sight, const std::vector<Panel>& panels,
 
 Judgement judge(const Picture& picture, const View& view, const Shown& seen, double tolerance) {
     Judgement result;
+    const Sights sights(view);
     for (int y = 0; y < picture.height; ++y)
         for (int x = 0; x < picture.width; ++x) {
-            const auto at = [&](double dx, double dy) { return seen(sight(view, x + 0.5 + dx, y + 0.5 + dy)); };
+            const auto at = [&](double dx, double dy) { return seen(sights.at(x + 0.5 + dx, y + 0.5 + dy)); };
             const glm::dvec3 expected = at(0.0, 0.0);
             const auto same = [&](double dx, double dy) { return at(dx, dy) == expected; };
             if (!(same(0.02, 0.02) && same(-0.02, 0.02) && same(0.02, -0.02) && same(-0.02, -0.02))) {

@@ -31,6 +31,16 @@ struct Sight {
 /// @param x,y  pixels from the lower left corner; pixel centres lie at halves.
 Sight sight(const View& view, double x, double y);
 
+/// Those of one view, for many: its matrix is inverted once.
+class Sights {
+public:
+    explicit Sights(const View& view);
+    Sight at(double x, double y) const;
+
+private:
+    const glm::dmat4 _worldFromWindow;
+};
+
 struct Met {
     const Panel* panel;
     glm::dvec3 where;
