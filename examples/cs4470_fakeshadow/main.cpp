@@ -2,7 +2,6 @@
 // cs4470_fakeshadow: the fake shadows of CS-4470, a turning cube over a checkerboard, the light at infinity.
 #include "Example.h"
 #include "Mesh.h"
-#include "Paint.h"
 
 #include <gnomon/PlanarShadowNode.h>
 

@@ -2,7 +2,6 @@
 // gus_shadow: GusOnGames' box and its shadow on a plane that three points give.
 #include "Example.h"
 #include "Mesh.h"
-#include "Paint.h"
 
 #include <gnomon/Convert.h>
 #include <gnomon/PlanarShadowNode.h>

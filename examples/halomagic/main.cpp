@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // halomagic: M. Kilgard's shadows, reflections and halos in one scene, by Gnomon's nodes.
 #include "Example.h"
-#include "Paint.h"
+#include "Mesh.h"
 
 #include <gnomon/HaloNode.h>
 #include <gnomon/HaloPulse.h>

@@ -2,7 +2,7 @@
 // lab8: the point-light shadows of "Lab 8: Fake Shadow", by its own vertex shader and by PlanarShadowNode.
 #include "Example.h"
 #include "InputFile.h"
-#include "Paint.h"
+#include "Mesh.h"
 
 #include <gnomon/PlanarShadowNode.h>
 

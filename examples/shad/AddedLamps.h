@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include "Mesh.h"
-#include "Paint.h"
 
 #include <gnomon/ShadowCasterGroup.h>
 

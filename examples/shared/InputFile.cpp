@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "InputFile.h"
-#include "SceneCamera.h"
+#include "SceneSetup.h"
 
 #include <gnomon/SceneProps.h>
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "Report.h"
-#include "Json.h"
 
 #include <iomanip>
 #include <sstream>

@@ -3,12 +3,15 @@
 #include "SceneLights.h"
 #include "ViewOptions.h"
 
+#include <gnomon/SceneProps.h>
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ShadowTechnique.h>
 
 #include <osg/BoundingBox>
 #include <osg/Camera>
 #include <osg/Group>
+#include <osg/MatrixTransform>
+#include <osg/Matrixd>
 
 #include <memory>
 #include <string>
@@ -72,5 +75,15 @@ struct Lookout {
 };
 /// @throws std::invalid_argument, one sentence.
 Lookout lookout(const ViewOptions& options, const SceneSetup& setup);
+
+/// A camera of fixed near and far planes.
+struct SceneCamera {
+    osg::Matrixd view, projection;
+    int width = 0, height = 0; ///< pixels.
+};
+
+/// What a camera sees. Where it leaves near and far to OpenSceneGraph, they stand close around `bounds`, near never closer
+/// than 1/2000 of far, as OpenSceneGraph itself has it.
+SceneCamera sceneCamera(const osg::Camera& camera, int width, int height, const osg::BoundingBoxd& bounds);
 
 } // namespace gnomon::examples

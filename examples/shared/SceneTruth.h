@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "SceneCamera.h"
+#include "SceneSetup.h"
 #include "SceneTriangles.h"
 
 #include <metrics/PixelSets.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Faults of techniques that the stability table has found.
-#include "StabilityRun.h"
+#include "StabilityScene.h"
 
 #include <gtest/gtest.h>
 

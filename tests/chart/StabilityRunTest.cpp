@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The stability table's runner: what crashes, hangs or refuses costs its own cell, and a right picture is called right.
 // This process never draws: the children do.
-#include "StabilityRun.h"
 #include "StabilityResults.h"
+#include "StabilityScene.h"
 #include "scenes/SceneParts.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // gnomoncompare as users run it, on the box of tests/math/metrics: pictures and truth through files and back.
 #include "../math/metrics/BoxOnGround.h"
+#include "ImageFile.h"
 #include "Program.h"
-#include "TruthFile.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -492,7 +492,7 @@ TEST_F(Gnomonshot, RecommendsTheTechniqueThatAutoDraws) {
     EXPECT_GT(chosen.at("ms").at("still"), 0.0);
     const std::string out = run(with({"--recommend"})).out, spec = chosen.at("spec");
     EXPECT_EQ(out.rfind("light 0: " + spec + ", the cheapest that keeps 1 px: ", 0), 0u) << out;
-    for (const char* part : {"planar", "traced  ", "map:", "hull  ", "no terrain is named as receiver", "in C++: "})
+    for (const char* part : {"volume", "traced  ", "map:", "hull  ", "no terrain is named as receiver", "in C++: "})
         EXPECT_NE(out.find(part), std::string::npos) << part << " is not in\n" << out;
     EXPECT_EQ(runGnomonshot(with({"--recommend", "--shadow", "map"}), folder.path()).lastLine(),
               "gnomonshot: --recommend needs --shadow auto and no other. Leave --shadow out, or give its budget.");

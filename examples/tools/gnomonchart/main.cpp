@@ -8,7 +8,6 @@
 #include "RandomScene.h"
 #include "SceneTruth.h"
 #include "StabilityResults.h"
-#include "StabilityRun.h"
 #include "StabilityScene.h"
 #include "StageViewer.h"
 #include "TimeLeft.h"

@@ -4,7 +4,6 @@
 #include "ImageFile.h"
 #include "OutputFile.h"
 #include "Report.h"
-#include "TruthFile.h"
 
 #include <metrics/CauseSplit.h>
 

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 // gnomonshot: scene files in, a picture with shadows out; no display, no GPU.
 #include "FrameTime.h"
+#include "ImageFile.h"
 #include "InputFile.h"
 #include "OutputFile.h"
-#include "SceneCamera.h"
 #include "ScenePicture.h"
 #include "SceneSetup.h"
 #include "SceneTruth.h"
 #include "TimeLeft.h"
-#include "TruthFile.h"
 
 #include <gnomon/PlanarShadowNode.h>
 #include <gnomon/ShadowDecision.h>
@@ -327,8 +326,6 @@ std::string cppFor(const ShadowCandidate& candidate) {
     if (parsed.technique == "hull")
         return "auto* shadow = new gnomon::TerrainShadowGeode; shadow->setReceiver({terrain}); "
                "group->addChild(shadow);";
-    if (parsed.technique == "planar")
-        return "group->addChild(new gnomon::PlanarShadowNode(osg::Vec4d(0, 0, 1, 0))); // your receiver's plane";
     if (parsed.technique == "volume") return "group->addChild(new gnomon::ShadowVolumeTechnique);";
     if (parsed.technique == "traced") return "group->addChild(new gnomon::TracedShadowTechnique);";
     return "// none is needed";

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "ChartResults.h"
 
-#include "Json.h"
 #include "OutputFile.h"
 #include "Report.h"
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "ChartScene.h"
-#include "SceneCamera.h"
 #include "SceneSetup.h"
 
 #include <gnomon/NamedNode.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "RandomScene.h"
-#include "StabilityRun.h"
+#include "StabilityScene.h"
 
 #include "scenes/SceneParts.h"
 

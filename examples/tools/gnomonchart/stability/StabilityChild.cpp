@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "StabilityChild.h"
 #include "../measure/Complaints.h"
 #include "../measure/FlickerRun.h"
 #include "../measure/StageViewer.h"
@@ -9,6 +8,7 @@
 #include "OutputFile.h"
 #include "SceneTriangles.h"
 #include "StabilityResults.h"
+#include "StabilityScene.h"
 
 #include <gnomon/NamedNode.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "StabilityResults.h"
 #include "../measure/Yardstick.h"
-#include "Json.h"
 #include "OutputFile.h"
+#include "Report.h"
 
 #include <metrics/BoundaryDistance.h>
 #include <metrics/ShadowMetrics.h>

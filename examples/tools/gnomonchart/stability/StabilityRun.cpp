@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "StabilityRun.h"
-#include "StabilityChild.h"
+#include "StabilityScene.h"
 
 #include <algorithm>
 #include <cerrno>

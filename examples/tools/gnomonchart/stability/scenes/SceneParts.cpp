@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "SceneParts.h"
 
-#include "SceneCamera.h"
+#include "SceneSetup.h"
 
 #include <gnomon/NamedNode.h>
 
