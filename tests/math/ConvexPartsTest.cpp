@@ -271,6 +271,74 @@ TEST(ConvexParts, OfAWallWithAHoleAreNotItsHull) {
     EXPECT_GT(partsOf(soup).size(), 1u);
 }
 
+/// Of sides 6, 6 and t, and 6, t and t.
+TEST(ConvexParts, OfPlatesAndNeedlesAreOneUnlessAFaceIsMissing) {
+    std::mt19937 random(13);
+    for (const double thin : {0.3, 0.03, 3e-3, 3e-4})
+        for (const glm::dvec3& half : {glm::dvec3(3, 3, thin), glm::dvec3(3, thin, 3), glm::dvec3(thin, thin, 3)})
+            for (int turn = 0; turn < 4; ++turn) {
+                Soup soup;
+                soup.box(-half, half);
+                EXPECT_EQ(partsOf(turned(soup, random, true)).size(), 1u) << thin;
+                EXPECT_EQ(partsOf(turned(soup.without(0, 2), random, true)).size(), 1u) << thin << ", without floor";
+                for (std::size_t face = 2; face < 12; face += 2) {
+                    EXPECT_GT(partsOf(turned(soup.without(face, 2), random, true)).size(), 1u) << thin << " " << face;
+                    EXPECT_GT(partsOf(turned(soup.without(face), random, true)).size(), 1u) << thin << " " << face;
+                }
+            }
+}
+
+/// 0.1 wide and deep in a box of 6 x 4 x 5: a millionth of its size times its surface is more than that holds.
+TEST(ConvexParts, OfABoxWithASmallPitAreNotItsHull) {
+    Soup soup = box().without(2, 2); // its lid
+    const auto corner = [](int i, double half, double z) {
+        const int k = i % 4;
+        return glm::dvec3(k == 0 || k == 3 ? -1 : 1, k < 2 ? -1 : 1, 0) * glm::dvec3(half, half, 0) +
+               glm::dvec3(0, 0, z);
+    };
+    const auto rim = [&](int i) { return glm::dvec3(3, 2, 1) * corner(i, 1.0, 5.0); };
+    for (int i = 0; i < 4; ++i) {
+        soup.triangle(rim(i), rim(i + 1), corner(i, 0.05, 5.0));
+        soup.triangle(rim(i + 1), corner(i + 1, 0.05, 5.0), corner(i, 0.05, 5.0));
+        soup.triangle(corner(i, 0.05, 5.0), corner(i + 1, 0.05, 5.0), corner(i, 0.05, 4.9));
+        soup.triangle(corner(i + 1, 0.05, 5.0), corner(i + 1, 0.05, 4.9), corner(i, 0.05, 4.9));
+    }
+    EXPECT_GT(partsOf(soup).size(), 1u) << "a hole down to nothing";
+    soup.triangle(corner(0, 0.05, 4.9), corner(1, 0.05, 4.9), corner(2, 0.05, 4.9));
+    soup.triangle(corner(0, 0.05, 4.9), corner(2, 0.05, 4.9), corner(3, 0.05, 4.9));
+    EXPECT_GT(partsOf(soup).size(), 1u);
+}
+
+/// Schoenhardt's: a prism on a triangle, turned by 30 degrees, its sides folded in. All corners are on its hull, which is
+/// larger by three tetrahedra. Folded out it is its hull.
+TEST(ConvexParts, OfASolidThatIsFoldedInBetweenCornersOfItsHullAreNotThat) {
+    const auto at = [](int i, double z) {
+        const double angle = (120.0 * i + 30.0 * (z > 0.0)) * degree;
+        return glm::dvec3(3.0 * std::cos(angle), 3.0 * std::sin(angle), z);
+    };
+    for (const bool in : {true, false}) {
+        Soup soup;
+        soup.triangle(at(0, 4.0), at(1, 4.0), at(2, 4.0));
+        soup.triangle(at(2, 0.0), at(1, 0.0), at(0, 0.0));
+        for (int i = 0; i < 3; ++i)
+            if (in) {
+                soup.triangle(at(i, 0.0), at(i + 1, 0.0), at(i + 1, 4.0));
+                soup.triangle(at(i, 0.0), at(i + 1, 4.0), at(i, 4.0));
+            } else {
+                soup.triangle(at(i, 0.0), at(i + 1, 0.0), at(i, 4.0));
+                soup.triangle(at(i + 1, 0.0), at(i + 1, 4.0), at(i, 4.0));
+            }
+        EXPECT_EQ(partsOf(soup).size() > 1, in);
+    }
+}
+
+/// What is inside of a solid casts nothing that it does not cast itself.
+TEST(ConvexParts, OfABoxWithASheetInsideAreItsHull) {
+    Soup soup = box();
+    soup.quad({-3, -2, 0}, {6, 0, 0}, {0, 4, 5});
+    EXPECT_EQ(partsOf(soup).size(), 1u);
+}
+
 TEST(ConvexParts, OfBrokenTrianglesAreThoseOfTheOthers) {
     Soup soup = box();
     const auto count = static_cast<unsigned>(soup.vertices.size());

@@ -12,7 +12,6 @@
 #include <cmath>
 #include <map>
 #include <set>
-#include <tuple>
 
 namespace gnomon {
 namespace {
@@ -60,11 +59,6 @@ private:
     std::vector<glm::dvec4> _planes;
     std::vector<int> _planesAt;
 };
-
-double lowest(const Points& points) {
-    const auto isLower = [](const glm::dvec3& a, const glm::dvec3& b) { return a.z < b.z; };
-    return std::min_element(points.begin(), points.end(), isLower)->z;
-}
 
 constexpr double tolerance = 1e-6; // of a part's size: what single precision leaves of a plane, and some more
 
@@ -176,64 +170,6 @@ Piece rounded(const Piece& piece) {
     return builder.take();
 }
 
-/// The planes of a hull, those that differ by rounding alone as one, found by the height of their normals.
-class HullPlanes {
-public:
-    HullPlanes(const ConvexHull& hull, double flatness);
-    /// Which side of the plane of a face a triangle shows outside: 1 its front, -1 its back, 0 it is in no face.
-    int cover(const Piece& piece, const Corners& triangle);
-    bool allCovered() const;
-    bool isOnFloor(const glm::dvec3& point) const {
-        return std::any_of(_floor.begin(), _floor.end(),
-                           [&](const auto& plane) { return std::abs(distance(plane, point)) <= _flatness; });
-    }
-
-private:
-    struct Known {
-        glm::dvec4 plane;
-        bool covered = false;
-    };
-    /// The plane of this normal that all points are in, or null.
-    Known* find(const glm::dvec3& normal, const Points& points);
-
-    const double _flatness;
-    std::multimap<double, Known> _planes; ///< by the z of the normal.
-    std::vector<glm::dvec4> _floor;       ///< those that look straight down.
-};
-
-HullPlanes::HullPlanes(const ConvexHull& hull, double flatness) : _flatness(flatness) {
-    for (const ConvexHull::Face& face : hull.faces) {
-        Points corners;
-        for (const unsigned corner : face.corners) corners.push_back(hull.vertices[corner]);
-        const glm::dvec3 normal(face.plane);
-        if (looksDown(normal)) _floor.push_back(face.plane);
-        if (!find(normal, corners)) _planes.emplace(normal.z, Known{face.plane});
-    }
-}
-
-HullPlanes::Known* HullPlanes::find(const glm::dvec3& normal, const Points& points) {
-    const auto end = _planes.upper_bound(normal.z + alikeNormals);
-    for (auto at = _planes.lower_bound(normal.z - alikeNormals); at != end; ++at)
-        if (isPlaneOf(at->second.plane, normal, points, _flatness)) return &at->second;
-    return nullptr;
-}
-
-int HullPlanes::cover(const Piece& piece, const Corners& triangle) {
-    const glm::dvec3 normal = glm::normalize(piece.doubleArea(triangle));
-    const Points corners{piece.points[triangle[0]], piece.points[triangle[1]], piece.points[triangle[2]]};
-    for (const int side : {1, -1})
-        if (Known* known = find(double(side) * normal, corners)) {
-            known->covered = true;
-            return side;
-        }
-    return 0;
-}
-
-bool HullPlanes::allCovered() const {
-    const auto done = [](const auto& it) { return it.second.covered || looksDown(glm::dvec3(it.second.plane)); };
-    return std::all_of(_planes.begin(), _planes.end(), done);
-}
-
 /// Whether all of it lies in the plane of its largest triangle.
 bool isFlat(const Piece& piece) {
     glm::dvec3 most(0.0);
@@ -245,37 +181,57 @@ bool isFlat(const Piece& piece) {
     });
 }
 
-/// The hull, if the piece is a ball, a cone, a capsule and so on, with or without a level floor.
-std::optional<ConvexHull> asRound(const Piece& given) {
-    const Piece piece = given.closed ? given : rounded(given);
-    if (!bendsOutwards(piece.points, piece.triangles, piece.flatness())) return std::nullopt;
-    std::optional<ConvexHull> hull = convexHull(piece.points);
-    return hull && areOnHull(piece.points, *hull, piece.flatness()) ? hull : std::nullopt;
-}
-
-/// The hull, if the piece covers it but for its floor.
+/// The hull, if the piece covers it but for its floor. What is inside of it casts no shadow of its own.
 ///
-/// The triangles in the hull's faces, turned outwards, cover a face the same number of times all over if no edge inside
-/// it is open. An edge that is open in two faces is where they meet; so none may be open in all but on the floor.
-std::optional<ConvexHull> asHull(const Piece& piece) {
-    if (isFlat(piece)) return std::nullopt;
-    if (piece.closed)
-        if (auto solid = convexSolid(piece.points, piece.triangles, piece.flatness())) return solid;
+/// Of the triangles that lie in faces of the hull, every edge above the floor must have an even number: then each way from the
+/// middle of the hull to its sides and roof meets an odd number of them, or each an even one. The tetrahedra from the middle to
+/// them must be as large together as the hull is without its floor: then that number is one. Volumes may differ by as
+/// much as a layer over the hull holds in which points are taken for one.
+std::optional<ConvexHull> asHull(const Piece& given) {
+    if (isFlat(given)) return std::nullopt;
+    if (given.closed)
+        if (auto solid = convexSolid(given.points, given.triangles, given.flatness())) return solid;
+    const Piece piece = rounded(given);
     std::optional<ConvexHull> hull = convexHull(piece.points);
     if (!hull) return std::nullopt;
-    if (auto round = asRound(piece)) return round;
-    HullPlanes planes(*hull, piece.flatness());
-    Triangles outside;
-    for (Corners t : piece.triangles) {
-        const int side = planes.cover(piece, t);
-        if (side < 0) std::swap(t[1], t[2]);
-        if (side != 0) outside.push_back(t);
+    std::multimap<double, glm::dvec4> planes; // by the z of the normal
+    std::vector<glm::dvec4> floor;
+    glm::dvec3 middle(0.0);
+    for (const glm::dvec3& corner : hull->vertices) middle += corner / double(hull->vertices.size());
+    double area = 0.0, missing = 0.0;
+    for (const ConvexHull::Face& face : hull->faces) {
+        const glm::dvec3 a = hull->vertices[face.corners[0]] - middle, b = hull->vertices[face.corners[1]] - middle,
+                         c = hull->vertices[face.corners[2]] - middle;
+        area += 0.5 * glm::length(glm::cross(b - a, c - a));
+        if (looksDown(glm::dvec3(face.plane)))
+            floor.push_back(face.plane);
+        else
+            missing += glm::dot(a, glm::cross(b, c)) / 6.0;
+        planes.emplace(face.plane.z, face.plane);
     }
-    if (!planes.allCovered()) return std::nullopt;
-    for (const auto& [edge, sum] : edgeSums(outside))
-        if (sum != 0 && !(planes.isOnFloor(piece.points[edge.first]) && planes.isOnFloor(piece.points[edge.second])))
-            return std::nullopt;
-    return hull;
+    const auto isOnFloor = [&](unsigned corner) {
+        return std::any_of(floor.begin(), floor.end(), [&](const glm::dvec4& plane) {
+            return std::abs(distance(plane, piece.points[corner])) <= piece.flatness();
+        });
+    };
+    std::map<std::pair<unsigned, unsigned>, int> counts;
+    for (const Corners& t : piece.triangles) {
+        const glm::dvec3 normal = glm::normalize(piece.doubleArea(t));
+        const std::array<glm::dvec3, 3> corners{piece.points[t[0]], piece.points[t[1]], piece.points[t[2]]};
+        const double height = glm::dot(normal, corners[0] - middle), side = height < 0.0 ? -1.0 : 1.0;
+        const auto end = planes.upper_bound(side * normal.z + alikeNormals);
+        const bool isOnHull = std::any_of(planes.lower_bound(side * normal.z - alikeNormals), end, [&](const auto& it) {
+            return isPlaneOf(it.second, side * normal, corners, piece.flatness());
+        });
+        if (!isOnHull || std::all_of(t.begin(), t.end(), isOnFloor)) continue;
+        missing -= std::abs(height) * glm::length(piece.doubleArea(t)) / 6.0;
+        for (std::size_t i = 0; i < 3; ++i) ++counts[std::minmax(t[i], t[(i + 1) % 3])];
+    }
+    if (!(std::abs(missing) <= piece.flatness() * area)) return std::nullopt;
+    const bool isCovered = std::all_of(counts.begin(), counts.end(), [&](const auto& it) {
+        return it.second % 2 == 0 || (isOnFloor(it.first.first) && isOnFloor(it.first.second));
+    });
+    return isCovered ? hull : std::nullopt;
 }
 
 /// The faces of an upright prism.
@@ -373,39 +329,6 @@ std::optional<ConvexHull> convexSolid(const Points& points, const std::vector<Tr
         hull.faces.push_back({{t.begin(), t.end()}, *plane});
     }
     return planes.areAllCorners() ? std::optional(std::move(hull)) : std::nullopt;
-}
-
-bool bendsOutwards(const Points& points, const std::vector<Triangle>& triangles, double flatness) {
-    std::map<std::pair<unsigned, unsigned>, const Triangle*> leftOf; // of an edge one way
-    for (const Triangle& t : triangles)
-        for (std::size_t i = 0; i < 3; ++i)
-            if (!leftOf.emplace(std::pair(t[i], t[(i + 1) % 3]), &t).second) return false;
-    const double floor = lowest(points) + flatness;
-    std::size_t rim = 0;
-    for (const auto& [edge, triangle] : leftOf) {
-        const auto other = leftOf.find({edge.second, edge.first});
-        if (other == leftOf.end()) {
-            if (std::max(points[edge.first].z, points[edge.second].z) > floor) return false;
-            ++rim;
-            continue;
-        }
-        const glm::dvec4 plane = planeOf(points, *triangle);
-        for (const unsigned corner : *other->second)
-            if (!(distance(plane, points[corner]) <= flatness)) return false;
-    }
-    // Euler's formula, as above; without a floor the surface has one rim.
-    return triangles.size() + rim + (rim ? 2 : 4) == 2 * points.size();
-}
-
-bool areOnHull(const Points& points, const ConvexHull& hull, double flatness) {
-    const auto lessAt = [](const glm::dvec3& a, const glm::dvec3& b) {
-        return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-    };
-    const std::set<glm::dvec3, decltype(lessAt)> corners(hull.vertices.begin(), hull.vertices.end(), lessAt);
-    return std::all_of(points.begin(), points.end(), [&](const glm::dvec3& point) {
-        const auto isIn = [&](const auto& face) { return distance(face.plane, point) >= -flatness; };
-        return corners.count(point) > 0 || std::any_of(hull.faces.begin(), hull.faces.end(), isIn);
-    });
 }
 
 std::vector<ConvexPart> convexParts(const glm::vec3* positions, std::size_t vertexCount, const unsigned* indices,

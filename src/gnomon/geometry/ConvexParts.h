@@ -21,20 +21,6 @@ namespace gnomon {
 std::optional<ConvexHull> convexSolid(const std::vector<glm::dvec3>& points,
                                       const std::vector<std::array<unsigned, 3>>& triangles, double flatness);
 
-/// Whether a mesh is convex about each of its edges, to within `flatness`, as balls and cones are, whose faces are many and lie
-/// nearly in one plane. It may have no floor, which is level. Where areOnHull() holds, too, it is its own hull.
-///
-/// @param triangles  as above, or with one rim.
-///
-/// Cost  sorts the edges.
-bool bendsOutwards(const std::vector<glm::dvec3>& points, const std::vector<std::array<unsigned, 3>>& triangles,
-                   double flatness);
-
-/// Whether none of the points, which the hull is of, is further inside than `flatness`.
-///
-/// Cost  for each point that is no corner of the hull, as many steps as that has faces.
-bool areOnHull(const std::vector<glm::dvec3>& points, const ConvexHull& hull, double flatness);
-
 /// A convex piece of casters: a solid, or a plate.
 struct ConvexPart {
     ConvexHull hull;
@@ -47,9 +33,8 @@ struct ConvexPart {
 /// falls on. Independent of the light: once a revision of the casters.
 ///
 /// Of each part that is connected over vertices at one place:
-/// - its hull, if its faces are the hull's, but for those that look straight down (a box with or without floor, a gabled
-///   house, a tank);
-/// - its hull, if it is round (a ball, a cone, a capsule), points that rounding alone keeps apart taken as one;
+/// - its hull, if it covers that once, but for what looks straight down (a box with or without floor, a gabled house, a tank, a
+///   ball, a cone), points that rounding alone keeps apart taken as one;
 /// - pieces of its footprint, as high as it is, if it is an upright prism with or without floor (an L, a courtyard);
 /// - else each of its flat faces as convex plates. Those of a closed part have a front, those that look down are left out.
 ///
