@@ -46,10 +46,6 @@ struct ViewKey {
 
     /// True if both tell of one view and one part.
     bool operator==(const ViewKey& other) const { return stage == other.stage && part == other.part; }
-    /// Any order, for maps.
-    bool operator<(const ViewKey& other) const {
-        return stage != other.stage ? std::less<>()(stage, other.stage) : part < other.part;
-    }
 };
 
 /// One view in one frame, as a technique sees it after cull. OSG's convention: row vectors, eye = group * eyeFromGroup.

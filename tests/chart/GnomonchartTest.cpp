@@ -126,6 +126,7 @@ TEST_F(Gnomonchart, TwoRunsGiveTheSameErrorsToTheDigitOneWithoutFlickerToo) {
     json less = results("without")["points"];
     ASSERT_EQ(less.size(), with.size());
     for (std::size_t i = 0; i < less.size(); ++i) {
+        EXPECT_TRUE(less[i]["errors"]["boundaryPixels"].is_object());
         EXPECT_TRUE(less[i]["cost"].is_object());
         less[i]["cost"] = with[i]["cost"]; // which no two runs share
         for (const char* name : {"flickerEnergy", "flickerShare", "crawlPixels"}) {

@@ -96,9 +96,9 @@ TEST(Race, CountsWhatTheMarksOfGnomonDrawToo) {
 }
 
 /// The scene without shadows, and twice in its first frames.
-class LearningStaging : public PlainStaging {
+class RepeatingStaging : public PlainStaging {
 public:
-    LearningStaging(const ChartScene& scene, Look look, unsigned learning) : PlainStaging(scene, look) {
+    RepeatingStaging(const ChartScene& scene, Look look, unsigned learning) : PlainStaging(scene, look) {
         const osg::ref_ptr<osg::Group> again = new osg::Group;
         again->addChild(_content);
         again->setCullCallback(new OnlyFirst(learning));
@@ -120,7 +120,7 @@ TEST(Race, CountsDrawsOnlyOnceTwelveFramesAreDrawn) {
     const auto twiceIn = [](unsigned frames) {
         Contender contender = plainContender();
         contender.stage = [frames](const ChartScene& scene, Look look) {
-            return std::make_unique<LearningStaging>(scene, look, frames);
+            return std::make_unique<RepeatingStaging>(scene, look, frames);
         };
         return contender;
     };

@@ -3,9 +3,7 @@
 // A camera flies, and what is chosen automatically changes: how often, why, and that nobody sees it.
 #include "AutoTrial.h"
 
-#include <gnomon/auto/AutoChooser.h>
-#include <gnomon/compositor/ShadowJob.h>
-#include <gnomon/group/SceneFrame.h>
+#include <gnomon/auto/AutoCandidate.h>
 
 #include <gtest/gtest.h>
 #include <osg/PolygonOffset>
@@ -15,8 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <memory>
-#include <set>
 
 using namespace test;
 

@@ -5,7 +5,6 @@
 #include <gnomon/TracedShadowTechnique.h>
 
 #include <gtest/gtest.h>
-#include <osg/Geometry>
 #include <osg/MatrixTransform>
 
 #include <algorithm>
@@ -164,4 +163,33 @@ TEST(AutoLights, ALightThatTakesLightAwayCasts) {
         return render(trial.scene.root, view);
     };
     EXPECT_GT(drawn(true).different(drawn(false)), 1000);
+}
+
+// Another box comes, is in the first one's shadow, and goes: under BLEND the first one's unlit side must not change.
+TEST(AutoLights, SidesDoNotJumpWhereAnotherTechniqueTakesOver) {
+    for (const bool blend : {true, false}) {
+        const Mesh tall = box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0});
+        AutoTrial trial({tall}, {}, 8.0, {1.0, 0.0, 1.0, 0.0});
+        if (blend) trial.scene.group->setComposite(gnomon::ShadowCasterGroup::BLEND);
+        const osg::ref_ptr<osg::MatrixTransform> mover = new osg::MatrixTransform;
+        mover->addChild(node(box({-0.5, -0.5, 0.0}, {0.5, 0.5, 1.0}), "other"));
+        trial.scene.content->addChild(mover);
+        Camera camera(trial.scene.root, perspective({-6.0, -10.0, 8.0}, {0.0, 0.0, 0.0}, 320, 240));
+        std::set<std::uint32_t> shades;
+        for (int i = 0; i < 40; ++i) {
+            mover->setMatrix(osg::Matrixd::translate(3.0 - 0.1 * i, 2.1 - 0.04 * i, 0.0));
+            shades.insert(camera.frame().at(140, 125));
+        }
+        EXPECT_EQ(shades.size(), 1u) << (blend ? "blend" : "relight");
+    }
+}
+
+// All that is in shadow is the wall, which nobody sees.
+TEST(AutoLights, AWallInTheGroundLeavesTheGroundLit) {
+    const Mesh wall = quad({5.2, 0.96, -0.6}, {1.5, 0.0, 0.0}, {0.0, 0.0, 0.59});
+    const View view = perspective({-4.7, -15.9, 6.1}, {-1.2, 1.6, 0.5}, 160, 120);
+    const osg::Vec4d lamp(2.8, -3.0, 12.4, 1.0);
+    AutoTrial trial({wall}, {}, 14.0, lamp);
+    EXPECT_EQ(render(trial.scene.root, view).different(render(groundScene({wall}, 14.0, lamp).root, view)), 0)
+        << trial.chosen();
 }

@@ -10,8 +10,6 @@
 #include <gnomon/TracedShadowTechnique.h>
 #include <osg/MatrixTransform>
 #include <osg/PagedLOD>
-#include <osg/Sequence>
-#include <osg/Switch>
 #include <osgDB/DatabasePager>
 #include <osgDB/Registry>
 

@@ -79,4 +79,4 @@ TEST_P(SeveralLights, EachPixelLosesJustTheLightsThatItsRaysMiss) {
 
 INSTANTIATE_TEST_SUITE_P(Planar, SeveralLights,
                          testing::Combine(testing::Values(1, 2, 3), testing::Bool(),
-                                          testing::Values(0x00u, 0xc0u, 0xf0u)));
+                                          testing::Values(0x00u, 0xc0u, 0xf0u, 0xf8u, 0xfcu)));

@@ -287,6 +287,16 @@ TEST(Diagnose, TellsWhenASecondStencilBitIsWantedWhereOpenGLCannotCopyToAnother)
     EXPECT_EQ(site.causes(), Causes());
 }
 
+TEST(Diagnose, TellsOfALightWithoutAStencilBitWhereOpenGLCannotCopyToAnother) {
+    Site site;
+    addLights(site.scene, 2);
+    site.reserve(0xfc);
+    EXPECT_EQ(site.causes(), Causes()) << "it works in a framebuffer of its own";
+    const NoFramebufferCopies none(*site.camera);
+    EXPECT_TRUE(says(site.causes(), "light 1 casts no shadow, because too few stencil bits are left",
+                     "or set BLEND (composite=blend), which takes any number of lights"));
+}
+
 TEST(Diagnose, TellsOfLightsBeyondTheThreeThatCanBeRelit) {
     Site site;
     addLights(site.scene, 4);

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <bitset>
-#include <set>
+#include <map>
 
 namespace gnomon {
 namespace {
@@ -35,22 +35,27 @@ bool suffices(const TargetNeeds& needs) {
 
 } // namespace
 
-/// A bit a relit light, and one for all that blends; one more where marks are put together; marks that fade take two of those.
+/// As StencilMarks shares bits out: one a relit light, and one for all that blends, or two with hard and with fading marks; one
+/// more where marks are put together or several lights are marked; two where marks fade.
 TargetNeeds needsOf(const std::vector<ShadowJob>& jobs) {
     TargetNeeds needs;
-    std::set<int> lights;
+    std::map<int, std::bitset<2>> lights; // which kinds of marks each has: hard, fading
     bool together = false;
     std::optional<ScreenRect> bounds;
     for (const ShadowJob& job : jobs) {
         if (job.programMark()) continue;
-        const bool known = !lights.insert(job.relight ? job.light : blended).second;
-        together = together || known || job.receiverNamed;
+        std::bitset<2>& kinds = lights[job.relight ? job.light : blended];
+        together = together || kinds.any() || job.receiverNamed;
+        kinds.set(job.fades());
         needs.alpha = needs.alpha || job.fades();
         const ScreenRect& place = job.mark->hasDebugView ? wholeScreen : job.mark->screenBounds;
         bounds = bounds ? united(*bounds, place) : place;
     }
     if (bounds) needs.bounds = *bounds;
-    needs.stencilBits = std::clamp<std::size_t>(lights.size(), 1, mostRelitLights) + (needs.alpha ? 2 : together);
+    const auto isMixed = [](const auto& light) { return light.second.all(); };
+    const auto mixed = static_cast<std::size_t>(std::count_if(lights.begin(), lights.end(), isMixed));
+    needs.stencilBits = std::clamp<std::size_t>(lights.size(), 1, mostRelitLights) + mixed +
+                        (needs.alpha ? 2 : together || lights.size() > 1);
     return needs;
 }
 

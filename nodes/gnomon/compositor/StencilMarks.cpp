@@ -153,6 +153,7 @@ MarkedLights StencilMarks::lightsOf(const Jobs& wanted) const {
     std::vector<unsigned> unused = _lightBits;
     const auto lacksBits = [&](MarkedLight& light) { return !assignBits(light, unused); };
     lights.erase(std::remove_if(lights.begin(), lights.end(), lacksBits), lights.end());
+    std::sort(lights.begin(), lights.end(), [](const auto& a, const auto& b) { return a.number < b.number; });
     return lights;
 }
 

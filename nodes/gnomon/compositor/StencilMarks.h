@@ -72,7 +72,7 @@ public:
     /// For what cannot be mixed; 0 if there is none.
     unsigned fadedBit() const { return _faded; }
 
-    /// Lights as far as there are bits for them; reports those that are left out.
+    /// Lights as far as there are bits for them, by their numbers; reports those that are left out.
     MarkedLights lightsOf(const Jobs& wanted) const;
     /// Draws all marks into their lights' bits, which nobody has used.
     void mark(const MarkedLights& lights, Pixels pixels = Pixels::Half) const;
