@@ -87,19 +87,6 @@ osg::ref_ptr<osg::Texture2D> depthTexture(bool packed) {
     return texture;
 }
 
-/// Depths are copied as they are.
-class PlainTransfer {
-public:
-    PlainTransfer() {
-        glPushAttrib(GL_PIXEL_MODE_BIT);
-        glPixelTransferf(GL_DEPTH_SCALE, 1.0f);
-        glPixelTransferf(GL_DEPTH_BIAS, 0.0f);
-    }
-    ~PlainTransfer() { glPopAttrib(); }
-    PlainTransfer(const PlainTransfer&) = delete;
-    PlainTransfer& operator=(const PlainTransfer&) = delete;
-};
-
 /// From a window to what is bound for drawing, `height` rows high.
 void blitMirrored(const osg::GLExtensions& gl, const PixelRect& pixels, GLint height, GLbitfield what) {
     const GLint right = pixels.x + pixels.width, top = pixels.y + pixels.height;
@@ -207,7 +194,7 @@ FrameDepthCopy::Copy FrameDepthCopy::copy(osg::State& state, const PixelRect& pi
     if (bits == 0) return {noDepth};
     result.error.x = stepsOff * std::ldexp(1.0, -std::min(bits, 24));
     result.error.y = snapsOff * std::ldexp(1.0, -std::clamp(glInteger(GL_SUBPIXEL_BITS), 4, 16));
-    const PlainTransfer plain;
+    const PlainPixels plain(state);
     const bool resolves = ResolvedDepth::isNeeded(state), packed = !resolves && isPacked();
     Target& target = targetFor(state, pixels, packed);
     result.texture = target.texture;
