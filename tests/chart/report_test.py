@@ -95,6 +95,12 @@ class Budgets(unittest.TestCase):
         self.assertEqual([(row["kept"], row["best"], row["ratio"]) for row in rows], [(True, "map, a", 2.0)] * 2)
         self.assertIn("auto keeps 2 of 2 budgets", report.budgets_text(rows))
 
+    def test_of_an_error_bear_the_rounding_of_its_sum(self):
+        (row, _) = report.budgets(results(
+            point("Gnomon", "auto", "error 0.4", 4, 0.4 + 6e-15, text="auto:error=0.4"),
+            point("Gnomon", "volume", "a", 4, 0.4 + 6e-15, text="volume")))  # fmt: skip
+        self.assertEqual((row["kept"], row["best"]), (True, "volume, a"))
+
     def test_of_time_are_judged_by_the_error(self):
         (row, _) = report.budgets(results(
             point("Gnomon", "auto", "time 5", 5.4, 0.9, text="auto:time=5ms"), point("Gnomon", "map", "a", 4, 0.6, text="map"),
