@@ -92,7 +92,8 @@ TEST_F(Suffix, GoesTogetherWithOthers) {
 TEST_F(Suffix, HandsOptionsOn) {
     std::ofstream(folder + "/far.obj") << "v 0 0 1\nv 1 0 1\nv 0 1 1\nf 1 2 3\n";
     const osg::ref_ptr<osgDB::Options> options = new osgDB::Options("noRotation");
-    const auto scene = osgDB::Registry::instance()->readNode(folder + "/far.obj.(map).gnomon", options).takeNode();
+    const osg::ref_ptr<osg::Node> scene =
+        osgDB::Registry::instance()->readNode(folder + "/far.obj.(map).gnomon", options).takeNode();
     ASSERT_TRUE(scene);
     EXPECT_NEAR(scene->getBound().center().z(), 1.0, 1e-6) << "without it y becomes z";
 }
