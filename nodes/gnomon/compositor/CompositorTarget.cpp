@@ -5,15 +5,12 @@
 
 #include <algorithm>
 #include <bitset>
-#include <map>
 
 namespace gnomon {
 namespace {
 
 /// Shaders look beyond the pixels that they draw: four by four are shaded together at most.
 constexpr GLint shadedTogether = 4;
-
-constexpr int blended = -1; // no light: all that blends shares a bit
 
 PixelRect inWholeBlocks(const PixelRect& pixels) {
     const auto down = [](GLint x) { return std::max(0, x - shadedTogether) / shadedTogether * shadedTogether; };
@@ -35,27 +32,17 @@ bool suffices(const TargetNeeds& needs) {
 
 } // namespace
 
-/// As StencilMarks shares bits out: one a relit light, and one for all that blends, or two with hard and with fading marks; one
-/// more where marks are put together or several lights are marked; two where marks fade.
 TargetNeeds needsOf(const std::vector<ShadowJob>& jobs) {
     TargetNeeds needs;
-    std::map<int, std::bitset<2>> lights; // which kinds of marks each has: hard, fading
-    bool together = false;
     std::optional<ScreenRect> bounds;
     for (const ShadowJob& job : jobs) {
         if (job.programMark()) continue;
-        std::bitset<2>& kinds = lights[job.relight ? job.light : blended];
-        together = together || kinds.any() || job.receiverNamed;
-        kinds.set(job.fades());
         needs.alpha = needs.alpha || job.fades();
         const ScreenRect& place = job.mark->hasDebugView ? wholeScreen : job.mark->screenBounds;
         bounds = bounds ? united(*bounds, place) : place;
     }
     if (bounds) needs.bounds = *bounds;
-    const auto isMixed = [](const auto& light) { return light.second.all(); };
-    const auto mixed = static_cast<std::size_t>(std::count_if(lights.begin(), lights.end(), isMixed));
-    needs.stencilBits = std::clamp<std::size_t>(lights.size(), 1, mostRelitLights) + mixed +
-                        (needs.alpha ? 2 : together || lights.size() > 1);
+    needs.stencilBits = stencilBitsFor(jobs);
     return needs;
 }
 

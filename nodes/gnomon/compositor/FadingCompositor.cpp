@@ -10,7 +10,7 @@ namespace gnomon {
 FadingCompositor::FadingCompositor(const CompositorStage& draw) : _draw(draw), _marks(draw, true) {}
 
 void FadingCompositor::relight(const Jobs& wanted) const {
-    const Lights lights = _marks.lightsOf(wanted);
+    const MarkedLights lights = _marks.lightsOf(wanted);
     const Jobs jobs = jobsOf(lights);
     if (jobs.empty()) return;
     const ScreenRect bounds = boundsOf(jobs);
@@ -46,7 +46,7 @@ FadingCompositor::Leaves FadingCompositor::setAside(Leaves& leaves, const Jobs& 
 }
 
 /// What cannot be mixed keeps its colour, times the factor where it lost light; no light bit stays set there.
-void FadingCompositor::darkenAside(const Leaves& aside, const Lights& lights, const Jobs& jobs) const {
+void FadingCompositor::darkenAside(const Leaves& aside, const MarkedLights& lights, const Jobs& jobs) const {
     const ScreenRect bounds = boundsOf(jobs);
     Leaves kept, darkened;
     const unsigned faded = _marks.fadedBit();
@@ -65,7 +65,7 @@ void FadingCompositor::darkenAside(const Leaves& aside, const Lights& lights, co
                 "receiver.");
 }
 
-void FadingCompositor::multiplyByFactor(const Lights& lights, float factor, const ScreenRect& bounds) const {
+void FadingCompositor::multiplyByFactor(const MarkedLights& lights, float factor, const ScreenRect& bounds) const {
     weigh(lights, 0, bounds);
     _draw.pass(bounds, [&](ScreenPass& screen) {
         screen.stencilAny(_marks.fadedBit());
@@ -76,7 +76,7 @@ void FadingCompositor::multiplyByFactor(const Lights& lights, float factor, cons
 }
 
 /// @param weighed  alpha is already the share of the one light there is.
-void FadingCompositor::mix(const Leaves& leaves, const Lights& lights, const Jobs& jobs, bool weighed) const {
+void FadingCompositor::mix(const Leaves& leaves, const MarkedLights& lights, const Jobs& jobs, bool weighed) const {
     if (lights.size() > 1) {
         weigh(lights, 0, boundsOf(jobs));
         _draw.pass(boundsOf(jobs), [&](ScreenPass& screen) {
@@ -93,11 +93,11 @@ void FadingCompositor::mix(const Leaves& leaves, const Lights& lights, const Job
 }
 
 /// Adds what the leaves look like without the lights of `lost` (bit i: lights[i]); of one light, mixes it in.
-void FadingCompositor::replay(const Leaves& leaves, const Lights& lights, unsigned lost, const ScreenRect& bounds,
+void FadingCompositor::replay(const Leaves& leaves, const MarkedLights& lights, unsigned lost, const ScreenRect& bounds,
                               const Jobs& jobs) const {
     LeafReplay::Overlay overlay;
     overlay.bounds = bounds;
-    const Lights dark = partOf(lights, lost);
+    const MarkedLights dark = partOf(lights, lost);
     for (const MarkedLight& light : dark)
         if (!light.isMixed()) overlay.test |= light.bits();
     overlay.stencilFunction =
@@ -118,13 +118,13 @@ void FadingCompositor::replay(const Leaves& leaves, const Lights& lights, unsign
 
 /// Where pixels can lose all of these lights; with a light of two bits in use, which one stencil test cannot ask for,
 /// where they can lose any of all lights.
-ScreenRect FadingCompositor::boundsWithout(const Lights& lights, unsigned lost) const {
+ScreenRect FadingCompositor::boundsWithout(const MarkedLights& lights, unsigned lost) const {
     const bool mixed = std::any_of(lights.begin(), lights.end(), [](const auto& light) { return light.isMixed(); });
     return mixed ? boundsOf(jobsOf(lights)) : commonBounds(partOf(lights, lost));
 }
 
 /// Alpha becomes the share of each pixel that sees all lights but those of `lost`.
-void FadingCompositor::weigh(const Lights& lights, unsigned lost, const ScreenRect& bounds) const {
+void FadingCompositor::weigh(const MarkedLights& lights, unsigned lost, const ScreenRect& bounds) const {
     const TrueDepths depths(_draw, bounds);
     _draw.pass(bounds, [&](ScreenPass& screen) {
         screen.setAlpha(1.0f);

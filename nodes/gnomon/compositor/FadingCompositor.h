@@ -22,18 +22,17 @@ public:
     void blend(const Jobs& jobs, float dark) const;
 
 private:
-    using Lights = MarkedLights;
     using Leaves = std::vector<ReplayedLeaf>;
 
     Leaves setAside(Leaves& leaves, const Jobs& jobs) const;
-    void darkenAside(const Leaves& aside, const Lights& lights, const Jobs& jobs) const;
-    void multiplyByFactor(const Lights& lights, float factor, const ScreenRect& bounds) const;
-    void mix(const Leaves& leaves, const Lights& lights, const Jobs& jobs, bool weighed) const;
-    void replay(const Leaves& leaves, const Lights& lights, unsigned lost, const ScreenRect& bounds,
+    void darkenAside(const Leaves& aside, const MarkedLights& lights, const Jobs& jobs) const;
+    void multiplyByFactor(const MarkedLights& lights, float factor, const ScreenRect& bounds) const;
+    void mix(const Leaves& leaves, const MarkedLights& lights, const Jobs& jobs, bool weighed) const;
+    void replay(const Leaves& leaves, const MarkedLights& lights, unsigned lost, const ScreenRect& bounds,
                 const Jobs& jobs) const;
-    ScreenRect boundsWithout(const Lights& lights, unsigned lost) const;
+    ScreenRect boundsWithout(const MarkedLights& lights, unsigned lost) const;
     void addBlended(const ShadowJob& job, unsigned bit) const;
-    void weigh(const Lights& lights, unsigned lost, const ScreenRect& bounds) const;
+    void weigh(const MarkedLights& lights, unsigned lost, const ScreenRect& bounds) const;
     void weighOne(const MarkedLight& light, bool lost, ScreenPass& screen) const;
     void multiplyShare(const ShadowJob& job, bool blocked, ScreenPass& screen) const;
 

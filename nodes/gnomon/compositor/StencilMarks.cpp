@@ -4,6 +4,8 @@
 #include <gnomon/compositor/StencilMarks.h>
 
 #include <algorithm>
+#include <bitset>
+#include <map>
 
 namespace gnomon {
 namespace {
@@ -110,6 +112,23 @@ ScreenRect commonBounds(const MarkedLights& lights) {
     ScreenRect bounds = wholeScreen;
     for (const MarkedLight& light : lights) bounds = common(bounds, boundsOf(light.jobs()));
     return bounds;
+}
+
+std::size_t stencilBitsFor(const std::vector<ShadowJob>& jobs) {
+    constexpr int blended = -1;           // no light: all that blends shares a bit
+    std::map<int, std::bitset<2>> lights; // which kinds of marks each has: hard, fading
+    bool together = false, fading = false;
+    for (const ShadowJob& job : jobs) {
+        if (job.programMark()) continue;
+        std::bitset<2>& kinds = lights[job.relight ? job.light : blended];
+        together = together || kinds.any() || job.receiverNamed;
+        kinds.set(job.fades());
+        fading = fading || job.fades();
+    }
+    const auto isMixed = [](const auto& light) { return light.second.all(); };
+    const auto mixed = static_cast<std::size_t>(std::count_if(lights.begin(), lights.end(), isMixed));
+    return std::clamp<std::size_t>(lights.size(), 1, mostRelitLights) + mixed +
+           (fading ? 2 : together || lights.size() > 1);
 }
 
 StencilMarks::StencilMarks(const CompositorStage& draw, bool fades) : _draw(draw), _fades(fades) {

@@ -53,6 +53,10 @@ private:
     const ScreenRect _bounds;
 };
 
+/// How many bits StencilMarks shares out to these jobs, where they are free: one a relit light, and one for all that blends, or two
+/// with hard and with fading marks; one more where marks are put together or several lights are marked; two where marks fade.
+std::size_t stencilBitsFor(const std::vector<ShadowJob>& jobs);
+
 /// Shares out the free stencil bits of a stage to lights, and draws the marks of jobs into them, each cut to its receiver.
 class StencilMarks {
 public:
