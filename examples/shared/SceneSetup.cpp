@@ -305,7 +305,9 @@ void SceneSetup::furnish(const ViewOptions& options) {
     lights = std::make_unique<SceneLights>(options, *root, *group);
     if (added) lights->shineOn(*added);
     ground = lowestGround(*group, floor);
-    if (isFramed) framed = framedBy(scene, bounds, *lights, added ? sceneBounds(*group) : bounds, floor);
+    osg::BoundingBoxd reach = bounds;
+    if (added) reach.expandBy(sceneBounds(*added));
+    if (isFramed) framed = framedBy(scene, bounds, *lights, reach, floor);
     group->setCasters(selectCasters(options.casters, *group));
     receiver = options.receiver;
     if (!options.isUsual || !castsByItself(scene)) cast(options.shadows);

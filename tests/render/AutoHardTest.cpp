@@ -166,7 +166,7 @@ TEST(AutoLights, ALightThatTakesLightAwayCasts) {
 }
 
 // Another box comes, is in the first one's shadow, and goes: under BLEND the first one's unlit side must not change.
-TEST(AutoLights, SidesDoNotJumpWhereAnotherTechniqueTakesOver) {
+TEST(AutoLights, UnlitSidesDoNotJumpWhereAnotherObjectComesIntoTheShadow) {
     for (const bool blend : {true, false}) {
         const Mesh tall = box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0});
         AutoTrial trial({tall}, {}, 8.0, {1.0, 0.0, 1.0, 0.0});
