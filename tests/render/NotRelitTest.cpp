@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 #include <osg/BlendFunc>
+#include <osg/ColorMask>
+#include <osg/Depth>
 #include <osg/Program>
 #include <osg/VertexProgram>
 
@@ -77,6 +79,12 @@ void assembly(osg::StateSet& state, const std::string& colour) {
 void unlitAssembly(osg::StateSet& state) { assembly(state, "MUL result.color, grey, 3.0;\n"); }
 
 void litAssembly(osg::StateSet& state) { assembly(state, "ADD result.color, grey, state.light[0].diffuse;\n"); }
+
+/// Depth alone, before what stands there already: a catcher of shadows.
+void colorless(osg::StateSet& state) {
+    state.setAttributeAndModes(new osg::ColorMask(false, false, false, false));
+    state.setRenderBinDetails(-5, "RenderBin");
+}
 
 void blending(osg::StateSet& state) {
     state.setAttributeAndModes(new osg::BlendFunc(osg::BlendFunc::ONE, osg::BlendFunc::ONE));
@@ -152,6 +160,7 @@ TEST_P(Receivers, TakeTheShadowTheyCanAndSayIfItIsNotExact) {
 INSTANTIATE_TEST_SUITE_P(
     Planar, Receivers,
     testing::Values(Case{"Unlit", unlit, true, false}, Case{"UnlitUnnamed", unlit, false, false},
+                    Case{"Colorless", colorless, true, false}, Case{"ColorlessUnnamed", colorless, false, false},
                     Case{"ConstantProgram", constantProgram, true, false},
                     Case{"ConstantProgramUnnamed", constantProgram, false, false},
                     Case{"PositionProgram", positionProgram, true, false},
@@ -161,3 +170,86 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"LitProgram", litProgram, true, true}, Case{"LitProgramUnnamed", litProgram, false, true},
                     Case{"Blending", blending, true, true}, Case{"BlendingUnnamed", blending, false, true}),
     [](const auto& given) { return given.param.name; });
+
+namespace {
+
+/// Catchers over catchers: the phantoms of real things, before the picture of a camera.
+Scene phantoms() {
+    Scene scene = groundScene(twoCasters);
+    colorless(*scene.content->getOrCreateStateSet());
+    return scene;
+}
+
+const View small = perspective({-10.0, -14.0, 12.0}, {0.0, 0.0, 0.0}, 120, 90);
+
+} // namespace
+
+// Whatever lies behind what: the clear colour is multiplied by 0.5, once.
+TEST(Catchers, OfAllTechniquesTakeTheFactorOnceAndAreNamedWhereLightIsTaken) {
+    for (const std::string spec : {"planar", "planar:receiver=ground", "hull", "map", "volume", "traced", "auto"})
+        for (const auto composite : {gnomon::ShadowCasterGroup::RELIGHT, gnomon::ShadowCasterGroup::BLEND}) {
+            Scene lit = phantoms(), scene = phantoms();
+            const Picture expected = halved(render(lit.root, small));
+            scene.addShadow(spec);
+            scene.group->setComposite(composite);
+            const Picture actual = render(scene.root, small);
+            int shadowed = 0, other = 0;
+            for (const std::uint32_t pixel : actual.pixels) {
+                shadowed += pixel == expected.pixels[0];
+                other += pixel != expected.pixels[0] && pixel != 0xff400000u;
+            }
+            EXPECT_GT(shadowed, 100) << spec << composite;
+            EXPECT_EQ(other, 0) << spec << composite;
+            const auto* technique = dynamic_cast<gnomon::ShadowTechnique*>(scene.group->getChild(1));
+            const std::vector<std::string> causes = causesButLitSurfaces(*technique);
+            const bool named = composite == gnomon::ShadowCasterGroup::RELIGHT;
+            EXPECT_EQ(causes.size() > 0, named) << spec << composite;
+            if (named) EXPECT_NE(causes[0].find("writes no colour"), std::string::npos) << causes[0];
+        }
+}
+
+// Smooth edges leave every share between the factor and all.
+TEST(Catchers, TakeTheShareOfSmoothEdges) {
+    for (const auto composite : {gnomon::ShadowCasterGroup::RELIGHT, gnomon::ShadowCasterGroup::BLEND}) {
+        Scene scene = phantoms();
+        scene.addShadow("map:edges=smooth");
+        scene.group->setComposite(composite);
+        int darkest = 0, between = 0, darker = 0;
+        for (const std::uint32_t pixel : render(scene.root, small).pixels) {
+            const int blue = pixel >> 16 & 0xff;
+            darkest += blue == 0x20;
+            between += blue > 0x20 && blue < 0x40;
+            darker += blue < 0x20;
+        }
+        EXPECT_GT(darkest, 100);
+        EXPECT_GT(between, 20);
+        EXPECT_EQ(darker, 0);
+    }
+}
+
+TEST(Catchers, APassOfDepthsBeforeThatOfColorsIsNone) {
+    for (const std::string spec : {"map", "map:edges=smooth"}) {
+        const auto build = [](bool depthsFirst) {
+            Scene scene = groundScene(twoCasters);
+            if (!depthsFirst) return scene;
+            const osg::ref_ptr<osg::Group> depths = new osg::Group, all = new osg::Group;
+            for (unsigned i = 0; i < scene.content->getNumChildren(); ++i) {
+                depths->addChild(scene.content->getChild(i));
+                all->addChild(scene.content->getChild(i));
+            }
+            scene.content->removeChildren(0, scene.content->getNumChildren());
+            scene.content->addChild(depths);
+            scene.content->addChild(all);
+            colorless(*depths->getOrCreateStateSet());
+            unlit(*depths->getOrCreateStateSet());
+            all->getOrCreateStateSet()->setAttributeAndModes(new osg::Depth(osg::Depth::LEQUAL));
+            return scene;
+        };
+        Scene plain = build(false), twice = build(true);
+        plain.addShadow(spec);
+        twice.addShadow(spec);
+        EXPECT_EQ(render(twice.root, small).different(render(plain.root, small)), 0) << spec;
+        const auto* technique = dynamic_cast<gnomon::ShadowTechnique*>(twice.group->getChild(1));
+        EXPECT_EQ(causesButLitSurfaces(*technique), std::vector<std::string>()) << spec;
+    }
+}

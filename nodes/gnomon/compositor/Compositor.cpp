@@ -5,6 +5,7 @@
 #include <gnomon/compositor/PrepassBin.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace gnomon {
 namespace {
@@ -158,19 +159,40 @@ void Compositor::relight(const Jobs& wanted) {
     const ScreenRect bounds = boundsOf(jobsOf(lights));
     _marks.mark(lights);
     resetMarked(lightBits, bounds);
-    for (unsigned lost = 1; lost < (1u << lights.size()); ++lost) replay(partOf(lights, lost), lightBits);
+    std::vector<ReplayedLeaf> catchers;
+    for (unsigned lost = 1; lost < (1u << lights.size()); ++lost) replay(partOf(lights, lost), lightBits, catchers);
+    if (!catchers.empty()) darken(catchers, lightBits, jobsOf(lights));
     _draw.clear(lightBits, bounds);
 }
 
+/// What shows where a catcher is seen loses the light by the factor.
+void Compositor::darken(const std::vector<ReplayedLeaf>& catchers, unsigned lightBits, const Jobs& jobs) const {
+    const ScreenRect bounds = boundsOf(jobs);
+    const unsigned seen = _marks.scratchBit();
+    if (!seen) return reportAll(jobs, oneBitLeft);
+    writeWhereSeen(_draw, catchers, {seen, seen, seen}, bounds);
+    _draw.pass(bounds, [&](ScreenPass& screen) {
+        screen.stencilEqual(0, lightBits, seen);
+        screen.drawQuad();
+        screen.takeStencil(seen, seen);
+        screen.multiplyColor(jobs.front()->dark);
+    });
+    for (const ReplayedLeaf& leaf : catchers) reportNotRelit(*leaf.entry.leaf, jobs);
+}
+
 /// Draws pixels anew that lose these lights and no others.
-void Compositor::replay(const MarkedLights& dark, unsigned lightBits) {
+void Compositor::replay(const MarkedLights& dark, unsigned lightBits, std::vector<ReplayedLeaf>& catchers) {
     LeafReplay::Overlay overlay;
     overlay.stencilFunction = GL_EQUAL;
     overlay.reference = bitsOf(dark);
     overlay.test = lightBits;
     overlay.bounds = commonBounds(dark);
     const Jobs jobs = jobsOf(dark);
-    if (!isEmpty(overlay.bounds)) replay(leavesToReplay(_draw, jobs, overlay.bounds), overlay, jobs);
+    if (isEmpty(overlay.bounds)) return;
+    const std::vector<ReplayedLeaf> leaves = leavesToReplay(_draw, jobs, overlay.bounds);
+    replay(leaves, overlay, jobs);
+    std::copy_if(leaves.begin(), leaves.end(), std::back_inserter(catchers),
+                 [](const ReplayedLeaf& leaf) { return leaf.isCatcher && leaf.lost; });
 }
 
 void Compositor::replay(const std::vector<ReplayedLeaf>& leaves, LeafReplay::Overlay overlay, const Jobs& jobs) {
@@ -179,15 +201,18 @@ void Compositor::replay(const std::vector<ReplayedLeaf>& leaves, LeafReplay::Ove
     overlay.lightUniforms = lightUniformsOf(jobs);
     LeafReplay replay(_draw, overlay);
     for (const ReplayedLeaf& leaf : leaves) replay.draw(leaf.entry, leaf.lost);
-    if (replay.notRelit().empty() || !keptBy<StageVerdict>(_draw.stage).askToName()) return;
-    for (const osgUtil::RenderLeaf* leaf : replay.notRelit())
-        for (const ShadowJob* job : jobs)
-            if (job->isReceiver(*leaf) && job->mark->canReach(*leaf))
-                job->report(
-                    "no light can be taken from '" + nameOf(*leaf) +
-                    "', because it is unlit or its program does not read gl_LightSource. Its colour is multiplied "
-                    "by setDark() (dark=) instead. Light it with OpenGL, name the uniform of its light with "
-                    "ShadowCasterGroup::addLightUniform(), or leave it out of the receiver.");
+    for (const osgUtil::RenderLeaf* leaf : replay.notRelit()) reportNotRelit(*leaf, jobs);
+}
+
+void Compositor::reportNotRelit(const osgUtil::RenderLeaf& leaf, const Jobs& jobs) const {
+    if (!keptBy<StageVerdict>(_draw.stage).askToName()) return;
+    for (const ShadowJob* job : jobs)
+        if (job->isReceiver(leaf) && job->mark->canReach(leaf))
+            job->report(
+                "no light can be taken from '" + nameOf(leaf) +
+                "', because it is unlit or writes no colour, or its program does not read gl_LightSource. Its colour "
+                "is multiplied by setDark() (dark=) instead. Light it with OpenGL, name the uniform of its light "
+                "with ShadowCasterGroup::addLightUniform(), or leave it out of the receiver.");
 }
 
 void Compositor::blend(const Jobs& jobs, float dark) {
@@ -197,7 +222,8 @@ void Compositor::blend(const Jobs& jobs, float dark) {
     all.hard = jobs;
     all.hardBit = bit;
     _marks.mark({all});
-    for (const ShadowJob* job : jobs) writeWhereSeen(_draw, notOfLens(*job, _draw.leaves), 0, bit, bounds);
+    for (const ShadowJob* job : jobs)
+        writeWhereSeen(_draw, notOfLens(*job, _draw.leaves), {0, bit, _marks.scratchBit()}, bounds);
     _draw.pass(bounds, [&](ScreenPass& screen) {
         screen.takeStencil(bit, bit);
         screen.multiplyColor(dark);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/compositor/CompositorStage.h>
 
+#include <osg/ColorMask>
 #include <osgUtil/StateGraph>
 
 #include <algorithm>
@@ -46,7 +47,14 @@ CompositorStage::CompositorStage(osg::RenderInfo& info, osgUtil::RenderStage& of
 }
 
 Channels CompositorStage::channels() const {
-    if (!_channels) _channels = writtenChannels(leaves);
+    if (_channels) return *_channels;
+    _channels = writtenChannels(leaves);
+    if (!_channels->red && !_channels->green && !_channels->blue) {
+        const osg::ColorMask* mask = stage.getColorMask();
+        _channels->red = !mask || mask->getRedMask();
+        _channels->green = !mask || mask->getGreenMask();
+        _channels->blue = !mask || mask->getBlueMask();
+    }
     return *_channels;
 }
 

@@ -47,7 +47,7 @@ public:
     /// Before marks: what others left in these bits would be taken for marks wherever leaves are drawn again.
     void clearLeftovers(unsigned stencil) const;
 
-    /// Those that the leaves write.
+    /// Those that the leaves write; if they write none, as catchers of shadows do, the stage's.
     Channels channels() const;
 
     osg::RenderInfo& renderInfo;

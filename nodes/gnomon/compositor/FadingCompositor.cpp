@@ -33,13 +33,14 @@ FadingCompositor::Leaves FadingCompositor::setAside(Leaves& leaves, const Jobs& 
     OpaqueTest opaque;
     Leaves aside, mixed;
     for (const ReplayedLeaf& leaf : leaves) {
+        if (leaf.isBehind) continue;
         const auto ofLens = [&leaf](const ShadowJob* job) { return job->isOfLens(*leaf.entry.leaf); };
         const bool laidOver = leaf.lost == 0 && !std::all_of(jobs.begin(), jobs.end(), ofLens);
         const bool hides = opaque(*leaf.entry.leaf) || (leaf.lost && jobs.front()->hidingOnly);
         if (!hides || laidOver)
             aside.push_back(leaf);
         else if (leaf.lost)
-            (judge.canBeRelit(leaf.entry, leaf.lost) ? mixed : aside).push_back(leaf);
+            (!leaf.isCatcher && judge.canBeRelit(leaf.entry, leaf.lost) ? mixed : aside).push_back(leaf);
     }
     leaves = mixed;
     return aside;
@@ -51,18 +52,18 @@ void FadingCompositor::darkenAside(const Leaves& aside, const MarkedLights& ligh
     Leaves kept, darkened;
     const unsigned faded = _marks.fadedBit();
     for (const ReplayedLeaf& leaf : aside) (leaf.lost && faded ? darkened : kept).push_back(leaf);
-    if (!kept.empty()) writeWhereSeen(_draw, kept, 0, bitsOf(lights), bounds);
+    if (!kept.empty()) writeWhereSeen(_draw, kept, {0, bitsOf(lights), _marks.scratchBit()}, bounds);
     if (darkened.empty()) return;
-    writeWhereSeen(_draw, darkened, faded, faded, bounds);
+    writeWhereSeen(_draw, darkened, {faded, faded, faded}, bounds);
     multiplyByFactor(lights, jobs.front()->dark, bounds);
     if (!keptBy<StageVerdict>(_draw.stage).askToName()) return;
     for (const ReplayedLeaf& leaf : darkened)
-        reportAll(
-            jobs,
-            "no part of a light can be taken from '" + nameOf(*leaf.entry.leaf) +
-                "', because it is unlit, blends, writes no depth or its program does not read gl_LightSource. Its "
-                "colour is multiplied by setDark() (dark=) instead. Light it with OpenGL, or leave it out of the "
-                "receiver.");
+        reportAll(jobs,
+                  "no part of a light can be taken from '" + nameOf(*leaf.entry.leaf) +
+                      "', because it is unlit, blends, writes no depth or no colour, or its program does not read "
+                      "gl_LightSource. Its colour is multiplied by setDark() (dark=) instead. Light it with OpenGL, or "
+                      "leave it out of the "
+                      "receiver.");
 }
 
 void FadingCompositor::multiplyByFactor(const MarkedLights& lights, float factor, const ScreenRect& bounds) const {
@@ -156,7 +157,7 @@ void FadingCompositor::addBlended(const ShadowJob& job, unsigned bit) const {
     if (job.fades() && !job.receiverNamed && others.empty())
         return _marks.add(job, bit, true, StencilMarks::Pixels::Weighed);
     _marks.add(job, bit, true, StencilMarks::Pixels::Touched);
-    writeWhereSeen(_draw, others, 0, bit, job.mark->screenBounds);
+    writeWhereSeen(_draw, others, {0, bit, _marks.scratchBit()}, job.mark->screenBounds);
     const TrueDepths depths(_draw, job.mark->screenBounds);
     _draw.pass(job.mark->screenBounds, [&](ScreenPass& screen) {
         screen.stencilAny(bit);

@@ -2,6 +2,7 @@
 #include <gnomon/ScreenPass.h>
 #include <gnomon/compositor/LeafReplay.h>
 #include <gnomon/compositor/MaterialHistory.h>
+#include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/gl/GlState.h>
 #include <gnomon/gl/TriangleClusters.h>
 
@@ -14,6 +15,9 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <optional>
+#include <set>
 #include <string>
 
 namespace gnomon {
@@ -149,6 +153,66 @@ std::size_t lastReceiver(const std::vector<DrawnLeaf>& leaves, const std::vector
     return last;
 }
 
+/// Tells catchers of shadows: what writes depth and no colour, unless another leaf draws the same in colour, as after a pass of
+/// depths alone.
+class Catchers {
+public:
+    explicit Catchers(const std::vector<DrawnLeaf>& leaves) : _leaves(leaves) {}
+
+    bool isColored(const osgUtil::RenderLeaf& leaf) {
+        if (leaf._parent != _graph)
+            _isColored = writesColor(_graph = leaf._parent); // leaves of one state mostly follow
+        return _isColored;
+    }
+
+    /// Of a leaf that writes no colour.
+    bool operator()(const osgUtil::RenderLeaf& leaf) {
+        if (!writesDepth(leaf._parent)) return false;
+        if (_colored.empty())
+            for (const DrawnLeaf& entry : _leaves)
+                if (isColored(*entry.leaf)) _colored.insert({entry.leaf->_drawable.get(), entry.leaf});
+        const auto [begin, end] = _colored.equal_range(leaf._drawable.get());
+        return std::none_of(begin, end, [&](auto& other) { return modelviewOf(*other.second) == modelviewOf(leaf); });
+    }
+
+private:
+    const std::vector<DrawnLeaf>& _leaves;
+    const osgUtil::StateGraph* _graph = nullptr;
+    bool _isColored = true;
+    std::multimap<const osg::Drawable*, const osgUtil::RenderLeaf*> _colored;
+};
+
+/// A leaf by which one finds out what is seen.
+struct SeenStep {
+    DrawnLeaf entry;
+    bool isSeen; ///< by itself, else it hides what was drawn before.
+};
+
+/// Puts among steps, in the order of drawing, what is drawn over one that leaves no depth or colour of its own, and hides it.
+/// @return whether there is any.
+bool addDrawnOver(const CompositorStage& draw, const ScreenRect& bounds, std::vector<SeenStep>& steps) {
+    const auto stands = [](const SeenStep& step) {
+        return writesDepth(step.entry.leaf->_parent) && writesColor(step.entry.leaf->_parent);
+    };
+    if (std::all_of(steps.begin(), steps.end(), stands)) return false;
+    std::set<const osgUtil::RenderLeaf*> seen;
+    for (const SeenStep& step : steps) seen.insert(step.entry.leaf);
+    TouchTest touches(bounds);
+    std::vector<SeenStep> all;
+    bool open = false, overdrawn = false;
+    for (const DrawnLeaf& entry : draw.leaves) {
+        const osgUtil::StateGraph* graph = entry.leaf->_parent;
+        const bool isSeen = seen.count(entry.leaf) > 0;
+        open = open || (isSeen && !stands({entry, true}));
+        const bool hides = !isSeen && open && writesColor(graph) && !isOn(graph, GL_BLEND) &&
+                           !isOn(graph, GL_COLOR_LOGIC_OP) && touches(*entry.leaf);
+        if (isSeen || hides) all.push_back({entry, isSeen});
+        overdrawn = overdrawn || hides;
+    }
+    if (overdrawn) steps = std::move(all);
+    return overdrawn;
+}
+
 } // namespace
 
 bool ProgramLightUse::canLose(unsigned lost) {
@@ -194,7 +258,8 @@ void ProgramLightUse::restore() {
 }
 
 LeafReplay::LeafReplay(const CompositorStage& draw, const Overlay& overlay)
-    : _skipsUntouched(draw.options.skipsUntouched),
+    : _draw(draw),
+      _skipsUntouched(draw.options.skipsUntouched),
       _pattern(draw.pattern),
       _renderInfo(draw.renderInfo),
       _state(draw.state),
@@ -356,6 +421,7 @@ void LeafReplay::layColorOver() {
         return glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     case Color::Factor:
         blend(GL_ZERO, GL_CONSTANT_COLOR);
+        openIfClosed();
         return setBlendColor(_overlay.factor);
     case Color::Mix:
         blend(GL_ONE_MINUS_DST_ALPHA, GL_DST_ALPHA);
@@ -364,6 +430,15 @@ void LeafReplay::layColorOver() {
         blend(GL_DST_ALPHA, GL_ONE);
         return keepAlpha();
     }
+}
+
+/// Where a leaf writes no colour, what others have drawn shows, and is darkened.
+void LeafReplay::openIfClosed() {
+    const auto* mask =
+        static_cast<const osg::ColorMask*>(_state.getLastAppliedAttribute(osg::StateAttribute::COLORMASK));
+    if (!mask || mask->getRedMask() || mask->getGreenMask() || mask->getBlueMask()) return;
+    const Channels written = _draw.channels();
+    glColorMask(written.red, written.green, written.blue, GL_FALSE);
 }
 
 void LeafReplay::keepAlpha() {
@@ -389,28 +464,51 @@ void LeafReplay::darken(unsigned lights) {
     _dark = lights;
 }
 
-void writeWhereSeen(const CompositorStage& draw, const std::vector<ReplayedLeaf>& leaves, unsigned reference,
-                    unsigned write, const ScreenRect& bounds) {
-    OpaqueTest opaque;
-    for (const bool equal : {false, true}) {
-        LeafReplay::Overlay overlay;
-        overlay.reference = reference;
-        overlay.write = write;
-        overlay.color = LeafReplay::Color::None;
-        overlay.equalDepth = equal;
-        overlay.keepDepth = true;
-        overlay.bounds = bounds;
-        LeafReplay replay(draw, overlay);
-        for (const ReplayedLeaf& leaf : leaves)
-            if (opaque(*leaf.entry.leaf) == equal) replay.draw(leaf.entry);
+void writeWhereSeen(const CompositorStage& draw, const std::vector<ReplayedLeaf>& leaves, const StencilWrite& bits,
+                    const ScreenRect& bounds) {
+    std::vector<SeenStep> steps;
+    for (const ReplayedLeaf& leaf : leaves) steps.push_back({leaf.entry, true});
+    const bool overdrawn = bits.scratch && addDrawnOver(draw, bounds, steps);
+    const StencilWrite now = overdrawn ? StencilWrite{bits.scratch, bits.scratch, 0} : bits;
+    std::optional<LeafReplay> replay;
+    LeafReplay::Overlay overlay;
+    overlay.write = now.write;
+    overlay.color = LeafReplay::Color::None;
+    overlay.keepDepth = true;
+    overlay.bounds = bounds;
+    for (const SeenStep& step : steps) {
+        const bool equal = writesDepth(step.entry.leaf->_parent);
+        const unsigned reference = step.isSeen ? now.reference : 0;
+        if (!replay || overlay.equalDepth != equal || overlay.reference != reference) {
+            overlay.equalDepth = equal;
+            overlay.reference = reference;
+            replay.emplace(draw, overlay);
+        }
+        replay->draw(step.entry);
     }
+    replay.reset();
+    if (!overdrawn || bits.write == bits.scratch) return;
+    draw.pass(bounds, [&](ScreenPass& screen) {
+        screen.stencilEqual(bits.scratch | bits.reference, bits.scratch, bits.write);
+        screen.drawQuad();
+    });
+    draw.clear(bits.scratch, bounds);
 }
 
 std::vector<ReplayedLeaf> notOfLens(const ShadowJob& job, const std::vector<DrawnLeaf>& leaves) {
     TouchTest touches(job.mark->screenBounds);
     std::vector<ReplayedLeaf> result;
+    auto first = leaves.begin(); // of those that may have something to hide
+    const auto hidesAny = [&](const DrawnLeaf& entry) {
+        const auto stands = [&](const DrawnLeaf& before) {
+            return job.isOfLens(*before.leaf) && writesDepth(before.leaf->_parent);
+        };
+        const auto end = leaves.begin() + (&entry - leaves.data());
+        first = std::find_if(first, end, stands);
+        return first != end || writesDepth(entry.leaf->_parent);
+    };
     for (const DrawnLeaf& entry : leaves)
-        if (!job.isOfLens(*entry.leaf) && touches(*entry.leaf)) result.push_back({entry, 0});
+        if (!job.isOfLens(*entry.leaf) && touches(*entry.leaf) && hidesAny(entry)) result.push_back({entry});
     return result;
 }
 
@@ -423,16 +521,23 @@ std::vector<ReplayedLeaf> leavesToReplay(const CompositorStage& draw, const std:
     const std::size_t last = skips ? lastReceiver(leaves, jobs, plain) : leaves.size();
     std::vector<ReplayedLeaf> result;
     const DrawnLeaf* selfDrawn = nullptr; // draws itself and is left out: it may have set the colour of what has none
+    bool stands = false;                  // something that writes depth
+    Catchers catchers(leaves);
     for (std::size_t i = 0; i < leaves.size(); ++i) {
         const osgUtil::RenderLeaf& leaf = *leaves[i].leaf;
         if (i > last && plain(leaf)) continue;
         const osg::Geometry* geometry = leaf._drawable->asGeometry();
         const bool replayed = !skips || touches(leaf);
         if (selfDrawn && replayed && geometry && !geometry->getColorArray()) {
-            result.push_back({*selfDrawn, 0});
+            result.push_back({*selfDrawn});
             selfDrawn = nullptr;
         }
-        if (replayed) result.push_back({leaves[i], lightsLostBy(&leaf, jobs)});
+        stands = stands || writesDepth(leaf._parent);
+        if (replayed) {
+            const bool colored = catchers.isColored(leaf), catches = !colored && catchers(leaf);
+            const unsigned lost = stands && (colored || catches) ? lightsLostBy(&leaf, jobs) : 0;
+            result.push_back({leaves[i], lost, !stands, catches});
+        }
         if (!geometry) selfDrawn = replayed ? nullptr : &leaves[i];
     }
     return result;

@@ -50,7 +50,9 @@ private:
 /// A leaf to be drawn again, and the lights (bit i: light i) that it loses.
 struct ReplayedLeaf {
     DrawnLeaf entry;
-    unsigned lost;
+    unsigned lost = 0;
+    bool isBehind = false;  ///< writes no depth, and nothing that does was drawn before it: it hides nothing.
+    bool isCatcher = false; ///< writes depth and no colour: what shows there loses light in its place.
 };
 
 /// Draws render leaves of the frame once more, with what the compositor wants of stencil, depth and lights laid over
@@ -116,6 +118,7 @@ private:
     void forgetAlpha();
     void layMirrorOver();
     void layColorOver();
+    void openIfClosed();
     void keepAlpha();
     void setBlendColor(float grey);
     void darken(unsigned lights);
@@ -124,6 +127,7 @@ private:
     void drawOnce(const osgUtil::RenderLeaf& leaf);
     void drawFaded(const osgUtil::RenderLeaf& leaf);
 
+    const CompositorStage& _draw;
     const bool _skipsUntouched;
     const StencilPattern _pattern;
     osg::RenderInfo& _renderInfo;
@@ -139,10 +143,18 @@ private:
     osgUtil::StateGraph* _previous = nullptr; ///< whose state sets are on the stack.
 };
 
-/// Sets the bits of `write` to those of `reference` where one sees these leaves; where they write no depth, wherever they
-/// pass their own test.
-void writeWhereSeen(const CompositorStage& draw, const std::vector<ReplayedLeaf>& leaves, unsigned reference,
-                    unsigned write, const ScreenRect& bounds);
+/// Bits of the stencil buffer to be written: those of `write` become those of `reference`.
+struct StencilWrite {
+    unsigned reference, write;
+    unsigned scratch; ///< a bit that is 0 before, and after unless it is to be written; 0: there is none.
+};
+
+/// Writes stencil bits where one sees these leaves: where their depth stands; where they write none, wherever they pass their
+/// own test and nothing that is drawn later hides them.
+///
+/// Cost  these leaves, once more; those drawn over one that writes no depth or no colour as well, if there is a scratch bit.
+void writeWhereSeen(const CompositorStage& draw, const std::vector<ReplayedLeaf>& leaves, const StencilWrite& bits,
+                    const ScreenRect& bounds);
 
 /// Which leaves must be drawn again so that marked pixels get exactly what a full redraw would give them.
 ///
@@ -152,7 +164,8 @@ void writeWhereSeen(const CompositorStage& draw, const std::vector<ReplayedLeaf>
 std::vector<ReplayedLeaf> leavesToReplay(const CompositorStage& draw, const std::vector<const ShadowJob*>& jobs,
                                          const ScreenRect& bounds);
 
-/// Leaves that a nested camera lays over what is seen through the lens of a job: no shadow of that job falls on them.
+/// Leaves that a nested camera lays over what is seen through the lens of a job: no shadow of that job falls on them. What
+/// writes no depth can hide only what was drawn before it.
 std::vector<ReplayedLeaf> notOfLens(const ShadowJob& job, const std::vector<DrawnLeaf>& leaves);
 
 } // namespace gnomon

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/compositor/ResolvedState.h>
 
+#include <osg/ColorMask>
 #include <osg/Depth>
 #include <osg/PolygonOffset>
 
@@ -118,6 +119,11 @@ bool isShaded(const osgUtil::StateGraph* graph) {
 bool writesDepth(const osgUtil::StateGraph* graph) {
     const auto* depth = resolved<osg::Depth>(graph, osg::StateAttribute::DEPTH);
     return isOn(graph, GL_DEPTH_TEST, true) && (!depth || depth->getWriteMask());
+}
+
+bool writesColor(const osgUtil::StateGraph* graph) {
+    const auto* mask = resolved<osg::ColorMask>(graph, osg::StateAttribute::COLORMASK);
+    return !mask || mask->getRedMask() || mask->getGreenMask() || mask->getBlueMask();
 }
 
 } // namespace gnomon

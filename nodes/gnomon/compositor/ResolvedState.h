@@ -32,6 +32,9 @@ const Attribute* resolved(const osgUtil::StateGraph* graph, osg::StateAttribute:
 /// True if what is drawn so leaves its depth: depth test and depth mask are on.
 bool writesDepth(const osgUtil::StateGraph* graph);
 
+/// False if what is drawn so leaves no colour: osg::ColorMask closes all three channels.
+bool writesColor(const osgUtil::StateGraph* graph);
+
 /// True if a shadow could be expected on what is drawn so, unlike on a sky: it is lit, or a program draws it.
 bool isShaded(const osgUtil::StateGraph* graph);
 

@@ -53,8 +53,8 @@ TrueDepths::TrueDepths(const CompositorStage& draw, const ScreenRect& bounds) : 
     const unsigned bit = _draw.vastBit;
     if (!_draw.stencilIsZero) _draw.clear(bit, _bounds);
     std::vector<ReplayedLeaf> leaves;
-    for (const VastLeaf& leaf : _draw.vast) leaves.push_back({leaf.entry, 0});
-    writeWhereSeen(_draw, leaves, bit, bit, _bounds);
+    for (const VastLeaf& leaf : _draw.vast) leaves.push_back({leaf.entry});
+    writeWhereSeen(_draw, leaves, {bit, bit, 0}, _bounds);
     _draw.pass(_bounds, [&](ScreenPass& screen) {
         screen.stencilEqual(bit, bit, 0);
         screen.writeFarDepth();
@@ -207,8 +207,7 @@ void StencilMarks::mark(const MarkedLights& lights, Pixels pixels) const {
 void StencilMarks::add(const ShadowJob& job, unsigned bit, bool fresh, Pixels pixels) const {
     if (fresh && !job.receiverNamed) return addUngated(job, bit, pixels);
     if (!_scratch) {
-        job.report("a named receiver, or a second technique for the same light, needs two stencil bits, but "
-                   "only one is left. Leave at least two out of CompositorOptions::reservedStencilBits.");
+        job.report(oneBitLeft);
         return;
     }
     addUngated(job, _scratch, pixels);

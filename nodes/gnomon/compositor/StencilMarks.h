@@ -12,6 +12,12 @@ using Jobs = std::vector<const ShadowJob*>;
 /// Each further light doubles the passes.
 constexpr std::size_t mostRelitLights = 3;
 
+/// The cause of what cannot be drawn without a scratch bit.
+constexpr const char* oneBitLeft =
+    "a named receiver, a second technique for the same light or a receiver that writes no colour needs two stencil "
+    "bits, "
+    "but only one is left. Leave at least two out of CompositorOptions::reservedStencilBits.";
+
 /// A cause for all their techniques.
 void reportAll(const Jobs& jobs, const std::string& cause);
 /// Where all the jobs' marks can fall.
@@ -73,6 +79,8 @@ public:
 
     /// For marks that need no other bit.
     unsigned firstBit() const { return _lightBits.front(); }
+    /// 0 before and after each step; 0 if there is none.
+    unsigned scratchBit() const { return _scratch; }
     /// For what cannot be mixed; 0 if there is none.
     unsigned fadedBit() const { return _faded; }
 

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <memory>
@@ -170,14 +171,17 @@ std::vector<ReceiverPart> partsOf(const Leaves& leaves, const StageLeaves& drawn
     return parts;
 }
 
-/// What a technique is told of one part.
-ViewFrame viewOf(ViewFrame view, const EnlistedTechnique& entry, const ReceiverPart& part) {
-    view.projection = *entry.projection * rangeOf(part.placement);
+/// What a technique is told of one part: of leaves without depth, as skies are, only if there are no others.
+ViewFrame viewOf(ViewFrame view, const TechniqueInStage& asked, const ReceiverPart& part) {
+    view.projection = *asked.entry.projection * rangeOf(part.placement);
     view.pushedBack = {part.placement.pixels, part.placement.steps};
     view.kind = part.late                  ? ReceiverKind::Late
                 : part.placement.isPlain() ? ReceiverKind::Usual
                                            : ReceiverKind::Displaced;
-    view.seen = part.leaves;
+    const auto isDepthless = [&asked](const auto* leaf) { return asked.drawn.depthless.count(leaf) > 0; };
+    if (!asked.drawn.depthless.empty())
+        std::remove_copy_if(part.leaves.begin(), part.leaves.end(), std::back_inserter(view.seen), isDepthless);
+    if (view.seen.empty()) view.seen = part.leaves;
     return view;
 }
 
@@ -360,7 +364,7 @@ void ShadowBin::addJobs(const TechniqueInStage& asked, const GroupLights& found,
     whole.key.stage = getStage();
     for (const ReceiverPart& part : parts) {
         const bool isFirst = &part == &parts.front();
-        ViewFrame view = viewOf(whole, entry, part);
+        ViewFrame view = viewOf(whole, asked, part);
         view.key.part = int(&part - parts.data());
         std::shared_ptr<const LeafSet> receivers;
         if (!part.isAll) receivers = std::make_shared<const LeafSet>(part.leaves.begin(), part.leaves.end());
