@@ -7,7 +7,9 @@
 
 #include <osg/BlendFunc>
 #include <osg/Program>
+#include <osg/Texture2DArray>
 
+#include <algorithm>
 #include <cstring>
 
 using namespace test;
@@ -64,6 +66,52 @@ Attachments draw(const std::string& spec, bool blends) {
     return drawn;
 }
 
+/// Both layers of a texture array in the third frame, and what the technique says. @param spec  empty for no shadow.
+std::vector<std::uint32_t> layers(const std::string& spec, std::vector<std::string>& causes) {
+    Scene scene = groundScene({box({-1.0, -1.0, 0.5}, {1.0, 1.0, 2.0})}, 4.0, {1.0, 0.3, 1.2, 0.0});
+    osg::ref_ptr<osg::Program> twice = new osg::Program;
+    twice->addShader(new osg::Shader(osg::Shader::VERTEX,
+                                     "#version 150 compatibility\nout vec4 lit;\n"
+                                     "void main() { gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex;\n"
+                                     "  vec3 n = normalize(gl_NormalMatrix * gl_Normal);\n"
+                                     "  float c = max(dot(n, normalize(gl_LightSource[0].position.xyz)), 0.0);\n"
+                                     "  lit = vec4(0.3) + c * gl_LightSource[0].diffuse; }"));
+    twice->addShader(
+        new osg::Shader(osg::Shader::GEOMETRY,
+                        "#version 150 compatibility\nlayout(triangles) in; in vec4 lit[]; out vec4 color;\n"
+                        "layout(triangle_strip, max_vertices = 6) out;\n"
+                        "void main() { for (int i = 0; i < 6; ++i) { gl_Layer = i / 3; color = lit[i % 3];\n"
+                        "  gl_Position = gl_in[i % 3].gl_Position; EmitVertex(); if (i == 2) EndPrimitive(); } }"));
+    twice->addShader(new osg::Shader(osg::Shader::FRAGMENT, "#version 150 compatibility\nin vec4 color;\n"
+                                                            "void main() { gl_FragColor = color; }"));
+    scene.content->getOrCreateStateSet()->setAttribute(twice);
+    if (!spec.empty()) scene.addShadow(spec);
+    Camera camera(scene.root, from);
+    osg::Camera& into = *camera.viewer().getCamera();
+    into.setRenderTargetImplementation(osg::Camera::FRAME_BUFFER_OBJECT);
+    const auto attach = [&](osg::Camera::BufferComponent buffer, GLint format, GLenum source, GLenum type) {
+        osg::ref_ptr<osg::Texture2DArray> array = new osg::Texture2DArray;
+        array->setTextureSize(from.width, from.height, 2);
+        array->setInternalFormat(format);
+        array->setSourceFormat(source);
+        array->setSourceType(type);
+        array->setFilter(osg::Texture::MIN_FILTER, osg::Texture::NEAREST);
+        into.attach(buffer, array, 0, osg::Camera::FACE_CONTROLLED_BY_GEOMETRY_SHADER);
+        return array;
+    };
+    const auto colors = attach(osg::Camera::COLOR_BUFFER, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE);
+    attach(osg::Camera::PACKED_DEPTH_STENCIL_BUFFER, GL_DEPTH24_STENCIL8_EXT, GL_DEPTH_STENCIL_EXT,
+           GL_UNSIGNED_INT_24_8_EXT);
+    for (int frame = 0; frame < 3; ++frame) camera.frame();
+    osg::GraphicsContext& context = *camera.context().graphicsContext();
+    context.makeCurrent();
+    std::vector<std::uint32_t> pixels(static_cast<std::size_t>(from.width * from.height * 2));
+    colors->getTextureObject(context.getState()->getContextID())->bind();
+    glGetTexImage(GL_TEXTURE_2D_ARRAY_EXT, 0, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+    if (!spec.empty()) causes = dynamic_cast<gnomon::ShadowTechnique&>(*scene.group->getChild(1)).diagnose();
+    return pixels;
+}
+
 int different(const osg::Image& a, const osg::Image& b) {
     int count = 0;
     for (unsigned i = 0; i < a.getTotalSizeInBytes(); i += 4) count += std::memcmp(a.data() + i, b.data() + i, 4) != 0;
@@ -85,5 +133,20 @@ TEST_P(ColorAttachments, ButTheFirstStayAsTheyAre) {
         EXPECT_GT(different(*actual.colors, *bare.colors), 500) << blends;
         EXPECT_EQ(different(*actual.normals, *bare.normals), 0) << blends;
         EXPECT_EQ(actual.complaints, std::vector<std::string>()) << blends;
+    }
+}
+
+// Whatever marks do, they lie in the first layer: the second would be lit where the first is not.
+TEST(LayeredFramebuffer, HasAShadowInNoLayerAndSaysSo) {
+    std::vector<std::string> causes;
+    const std::vector<std::uint32_t> lit = layers("", causes);
+    ASSERT_FALSE(std::equal(lit.begin(), lit.begin() + from.width, lit.begin() + from.width * from.height / 2));
+    ASSERT_TRUE(
+        std::equal(lit.begin(), lit.begin() + from.width * from.height, lit.begin() + from.width * from.height));
+    for (const std::string spec :
+         {"planar:composite=blend", "map", "map:edges=smooth", "volume:composite=blend", "auto"}) {
+        EXPECT_TRUE(layers(spec, causes) == lit) << spec;
+        const auto says = [](const std::string& cause) { return cause.find("has layers") != std::string::npos; };
+        EXPECT_TRUE(std::any_of(causes.begin(), causes.end(), says)) << spec;
     }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/compositor/CompositorStage.h>
+#include <gnomon/gl/SavedFramebuffers.h>
 
 #include <osg/ColorMask>
 #include <osgUtil/StateGraph>
@@ -81,8 +82,25 @@ void pushLeafState(osg::State& state, const osgUtil::RenderLeaf& leaf) {
     state.apply(leaf._parent->getStateSet());
 }
 
+namespace {
+
+/// True if a geometry shader chooses among the layers of what is drawn into. Rectangles, as marks are, go to the first alone.
+bool isLayered(const osg::State& state) {
+    constexpr GLenum layered = 0x8DA7; // GL_FRAMEBUFFER_ATTACHMENT_LAYERED
+    if (state.get<osg::GLExtensions>()->glVersion < 3.2f || glInteger(GL_FRAMEBUFFER_BINDING_EXT) == 0) return false;
+    const auto first = static_cast<GLenum>(glInteger(GL_DRAW_BUFFER));
+    return first != GL_NONE && attachmentParameter(first, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE_EXT) == GL_TEXTURE &&
+           attachmentParameter(first, layered);
+}
+
+} // namespace
+
 std::string whyNeverComposed(const osg::State& state, const osgUtil::RenderStage& stage) {
     if (isCoreProfile(state)) return coreProfileRefused;
+    if (isLayered(state))
+        return "this framebuffer has layers, of which marks reach the first alone, so no layer has a shadow. Draw each "
+               "layer "
+               "by a camera of its own.";
     return stage.getClearDepth() < 1.0
                ? "this view's depth buffer is cleared to less than 1. Set the camera's clear depth to 1."
                : "";
