@@ -64,7 +64,7 @@ public:
     void stencilAny(unsigned test);
     /// Pass where the number that the bits of `test` make, from bit 0 on, is `least` or more.
     void stencilAtLeast(unsigned least, unsigned test);
-    /// Pass where any bit of `test` is set, and set `bits` to 0.
+    /// Pass where any bit of `test` is set, and set `bits` to 0, whatever depth says.
     void takeStencil(unsigned test, unsigned bits);
     /// Stencil bits that nobody else uses, 0 before and after each step: several are the lowest ones, from bit 0 on, so
     /// that they count; one may be any and tells odd from even; 0 if there is none.
@@ -100,13 +100,13 @@ public:
     void beginMix(const osg::Vec3& kept);
     /// Ends beginReplace(), beginMix() and the like: no colour is written.
     void endMix();
-    /// Alpha alone becomes this.
+    /// Alpha alone becomes this, where something stands in the depth buffer: that of the background stays.
     void setAlpha(float value);
-    /// Alpha alone becomes factor + (1 - factor) alpha.
+    /// Alpha alone becomes factor + (1 - factor) alpha, in the same places.
     void fadeAlpha(float factor);
     /// What is drawn next multiplies alpha by its own, and writes nothing else.
     void multiplyAlpha();
-    /// What stands is multiplied by its alpha, which stays.
+    /// What stands is multiplied by its alpha, which stays, in the same places.
     void multiplyColorByAlpha();
     /// Passes where what is drawn next compares so with the depth that stands.
     /// @param clamp  what is nearer than the near plane, or beyond the far one, is taken for as far as that; else it is cut off.
@@ -120,7 +120,9 @@ private:
     void count(unsigned bits, bool behind);
     void openChannels(GLboolean alpha) const;
     void openToMultiply();
-    void drawColor(const osg::Vec4& color);
+    void drawColor(const osg::Vec4& color, bool overSurfaces = false);
+    void drawAlpha(float alpha);
+    void drawOverSurfaces();
 
     osg::RenderInfo& _renderInfo;
     osg::State& _state;

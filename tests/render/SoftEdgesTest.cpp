@@ -257,6 +257,34 @@ TEST(SoftEdges, UnlitReceiversAndDecalsAreDarkenedByTheFactorAndReported) {
     }
 }
 
+// A picture to be laid over another has an alpha of 0 where nothing stands.
+TEST(SoftEdges, ABackgroundKeepsItsAlpha) {
+    const auto draw = [](Scene& scene) {
+        Camera camera(scene.root, view);
+        camera.viewer().getCamera()->setClearColor({0.0f, 0.0f, 0.25f, 0.0f});
+        return camera.frame();
+    };
+    for (const auto composite : {relight, gnomon::ShadowCasterGroup::BLEND})
+        for (const int lights : {1, 2}) {
+            Scene scene = build(lights, 0, 0.3f);
+            const Picture lit = draw(scene);
+            scene.addShadow(disc(100.0, 100.0, 20.0, 90.0));
+            scene.addShadow(disc(100.0, 100.0, 10.0, 10.0));
+            scene.group->setComposite(composite);
+            const Picture actual = draw(scene);
+            int background = 0, changed = 0, clear = 0;
+            for (std::size_t i = 0; i < lit.pixels.size(); ++i) {
+                const bool stands = channel(lit.pixels[i], 3) == 255;
+                background += !stands;
+                changed += !stands && actual.pixels[i] != lit.pixels[i];
+                clear += stands && channel(actual.pixels[i], 3) != 255;
+            }
+            EXPECT_GT(background, 1000);
+            EXPECT_EQ(changed, 0) << lights << " lights, composite " << composite;
+            EXPECT_EQ(clear, 0) << lights << " lights, composite " << composite;
+        }
+}
+
 TEST(SoftEdges, NamedReceiverAloneReceives) {
     for (const int lights : {1, 2}) {
         Scene scene = build(lights, 0, 0.3f), gone = build(lights, (1u << lights) - 1, 0.3f);

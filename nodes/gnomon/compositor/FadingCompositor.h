@@ -8,7 +8,8 @@
 
 namespace gnomon {
 
-/// Composes jobs of which one at least fades, as smooth edges and penumbras do: visibility goes through destination alpha, which is 1 afterwards.
+/// Composes jobs of which one at least fades, as smooth edges and penumbras do: visibility goes through destination alpha, which is 1
+/// afterwards where something stands; the background keeps its own.
 ///
 /// Relight: a pixel's colour is the sum of what it would be under each set of lights, weighted by the share of it that
 /// sees just these; with one light that is one mix. Each leaf is drawn again at the depth that stands. A leaf that blends,

@@ -86,7 +86,7 @@ void ScreenPass::stencilAtLeast(unsigned least, unsigned test) {
 
 void ScreenPass::takeStencil(unsigned test, unsigned bits) {
     stencilAny(test);
-    glStencilOp(GL_KEEP, GL_KEEP, GL_ZERO);
+    glStencilOp(GL_KEEP, GL_ZERO, GL_ZERO);
     glStencilMask(bits);
 }
 
@@ -188,14 +188,12 @@ void ScreenPass::endMix() {
 
 void ScreenPass::setAlpha(float value) {
     glDisable(GL_BLEND);
-    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_TRUE);
-    drawColor({0.0f, 0.0f, 0.0f, value});
+    drawAlpha(value);
 }
 
 void ScreenPass::fadeAlpha(float factor) {
     addBlended(_state, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_TRUE);
-    drawColor({0.0f, 0.0f, 0.0f, factor});
+    drawAlpha(factor);
 }
 
 void ScreenPass::multiplyAlpha() {
@@ -206,7 +204,7 @@ void ScreenPass::multiplyAlpha() {
 void ScreenPass::multiplyColorByAlpha() {
     addBlended(_state, GL_ZERO, GL_DST_ALPHA);
     openToMultiply();
-    drawQuad();
+    drawOverSurfaces();
 }
 
 /// Fewer than all in anaglyph stereo, for one.
@@ -222,12 +220,24 @@ void ScreenPass::openToMultiply() {
     if (_encodes) glEnable(framebufferSrgb);
 }
 
-void ScreenPass::drawColor(const osg::Vec4& color) {
+void ScreenPass::drawColor(const osg::Vec4& color, bool overSurfaces) {
     GLfloat current[4];
     glGetFloatv(GL_CURRENT_COLOR, current);
     glColor4fv(color.ptr());
-    drawQuad();
+    overSurfaces ? drawOverSurfaces() : drawQuad();
     glColor4fv(current);
+}
+
+void ScreenPass::drawAlpha(float alpha) {
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_TRUE);
+    drawColor({0.0f, 0.0f, 0.0f, alpha}, true);
+}
+
+void ScreenPass::drawOverSurfaces() {
+    testDepth(GL_GREATER);
+    drawQuad(1.0);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(depthClamp);
 }
 
 void ScreenPass::testDepth(GLenum function, bool clamp) {
