@@ -147,10 +147,26 @@ TEST(MapStability, APictureOfAStillSceneIsTheSameWhateverWasDrawnBefore) {
         camera.frame();
         camera.setView(given.view);
         const Picture moved = camera.frame();
-        for (int i = 0; i < 8; ++i) camera.frame();
-        const Picture still = camera.frame();
-        EXPECT_EQ(still.different(first), 0) << given.name << ", before it has come to rest " << moved.different(first);
+        for (int i = 0; i < 10; ++i)
+            EXPECT_EQ(camera.frame().different(first), 0)
+                << given.name << ", frame " << i << ", before it has come to rest " << moved.different(first);
     }
+}
+
+// Smooth edges, as of a camera that stops: they step with its last motion, if at all, and never later.
+TEST(MapStability, SmoothEdgesStandStillAsSoonAsTheCameraDoes) {
+    const TracedCase given = test::townOfHouses();
+    Scene scene = given.build();
+    scene.addShadow("map:edges=smooth");
+    test::View view = given.view;
+    test::Camera camera(scene.root, view);
+    for (int i = 0; i < 6; ++i) {
+        view.view.postMultTranslate(osg::Vec3d(0.0, 0.0, 0.7));
+        camera.setView(view);
+        camera.frame();
+    }
+    const Picture first = camera.frame();
+    for (int i = 0; i < 10; ++i) EXPECT_EQ(camera.frame().different(first), 0) << "frame " << i;
 }
 
 } // namespace

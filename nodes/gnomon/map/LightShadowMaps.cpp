@@ -50,15 +50,17 @@ void LightShadowMaps::take(const MapRequest& request, bool flats) {
     if (!_map) _texels = request.settings.size;
 }
 
-/// Where nothing changes any more, finds all anew, for what is kept of maps goes by frames before. That is as dear as a
-/// change: what moves in every second frame, say, is not found anew each time.
+/// Where nothing changes any more, finds all anew, for what is kept of maps goes by frames before: at once, so that edges step
+/// as the motion ends and not later. That is as dear as a change, so the wait doubles while rests prove short: what moves in
+/// every second frame is soon not found anew each time.
 void LightShadowMaps::settle(SeenScene seen, const MapRequest& latest) {
     const auto key = [](const MapRequest& of) { return std::tie(of.light, of.cone, of.casters); };
     if (!(seen == _faces.seen() && key(latest) == key(_latest))) {
-        _rest = _latest.casters ? 0 : fewestAtRest; // a light's first frame has none before
+        if (_rest > 0) _patience = _rest < longRest ? std::min(2 * _patience, longRest) : 1;
+        _rest = _latest.casters ? 0 : longRest; // a light's first frame has none before
         _faces.see(std::move(seen));
         _latest = latest;
-    } else if (!isSettled() && ++_rest == fewestAtRest) {
+    } else if (_rest < longRest && ++_rest == _patience) {
         MapRequest now = _faces.request();
         now.light = latest.light;
         now.cone = latest.cone;

@@ -67,9 +67,9 @@ public:
 private:
     using Face = MapFaces::Face;
 
-    static constexpr int fewestAtRest = 8; ///< frames.
+    static constexpr int longRest = 8; ///< frames.
     /// True if maps are as if there had been no frames before.
-    bool isSettled() const { return _rest == fewestAtRest; }
+    bool isSettled() const { return _rest >= _patience; }
     /// True if the last picture is of the casters as they are now.
     bool isOfCasters() const {
         return _picture && _picture->still.of == _faces.request().casters->still &&
@@ -93,7 +93,8 @@ private:
 
     MapFaces _faces;                         ///< of an older light, while the latest is the same but for floats.
     MapRequest _latest;                      ///< in the last frame.
-    int _rest = 0;                           ///< frames since that or what is seen changed; see settle().
+    int _rest = 0;                           ///< frames since that or what is seen changed, up to longRest.
+    int _patience = 1;                       ///< that many settle the maps; see settle().
     int _texels = 0;                         ///< on a side of a tile, of those drawn last.
     osg::ref_ptr<DepthMap> _map;             ///< null until there is one that fits the settings.
     osg::ref_ptr<const MapPicture> _picture; ///< the last one.
