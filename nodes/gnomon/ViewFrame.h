@@ -68,6 +68,8 @@ struct GNOMON_EXPORT ViewFrame {
     std::size_t lights = 1;                       ///< whose shadows the group wants in the view.
     std::map<int, double> strengths;              ///< of these, see GroupLights.
     std::vector<const osgUtil::RenderLeaf*> seen; ///< leaves that can receive: those, or all of the view.
+    bool movesReceivers =
+        false; ///< A program moves some of `seen` out of their boxes: these may be anywhere in the view.
 
     /// Takes the group's frame to clip space.
     osg::Matrixd clipFromGroup() const { return eyeFromGroup * projection; }

@@ -93,3 +93,47 @@ TEST_P(ProgramPlaces, ALogarithmicDepthIsNamedAsTheCause) {
     state.removeAttribute(osg::StateAttribute::PROGRAM);
     EXPECT_TRUE(moving.causes().empty());
 }
+
+namespace {
+
+/// A ground at z = 0 whose arrays lie `raised` above, and whose program lowers it by as much; tiles, so that each has a box.
+Scene loweredGround(double raised) {
+    Scene scene = sceneOf(node(moved(standing, {1.0, 0.0, 0.4}), "box"));
+    scene.content->removeChild(find(*scene.root, "ground"));
+    const osg::ref_ptr<osg::Group> ground = new osg::Group;
+    ground->setName("ground");
+    for (int x = -6; x < 6; ++x)
+        for (int y = -6; y < 6; ++y) {
+            const osg::ref_ptr<osg::Geode> tile =
+                node(quad({double(x), double(y), raised}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}), "tile");
+            tile->getDrawable(0)->setCullingActive(false); // its box is elsewhere
+            ground->addChild(tile);
+        }
+    ground->getOrCreateStateSet()->setAttribute(
+        vertexProgram("vec4 v = gl_Vertex - vec4(0.0, 0.0, " + std::to_string(raised) +
+                      ", 0.0); gl_FrontColor = vec4(0.4) + 0.5 * gl_LightSource[0].diffuse; gl_Position = "
+                      "gl_ModelViewProjectionMatrix * v;"));
+    scene.content->addChild(ground);
+    return scene;
+}
+
+} // namespace
+
+// A map's texels may lie otherwise, so that single pixels at edges differ: less than an outline of two pixels' width.
+TEST(ProgramPlacesOfReceivers, AGroundThatAProgramLowersHasTheShadowOfOneThatLiesThere) {
+    const View view = perspective({-6.0, -10.0, 8.0}, {0.0, 0.0, 0.0}, 160, 120);
+    Scene bare = loweredGround(0.0);
+    const Picture lit = render(bare.root, view);
+    for (const std::string spec : {"map", "map:receiver=ground", "map:edges=smooth", "volume",
+                                   "volume:composite=blend,receiver=ground", "traced"}) {
+        Scene there = loweredGround(0.0), lowered = loweredGround(3.0);
+        for (Scene* scene : {&there, &lowered}) {
+            scene->addShadow(spec);
+            scene->group->setCasters({find(*scene->root, "box")});
+        }
+        const Picture expected = render(there.root, view);
+        const int shadowed = expected.different(lit);
+        EXPECT_GT(shadowed, 100) << spec;
+        EXPECT_LE(render(lowered.root, view).different(expected), spec[0] == 'm' ? shadowed / 5 : 0) << spec;
+    }
+}

@@ -298,7 +298,7 @@ std::optional<ScreenRect> screenBoundsOf(const osgUtil::RenderLeaf& leaf) {
 }
 
 bool TouchTest::operator()(const osgUtil::RenderLeaf& leaf) {
-    if (!_filled(leaf)) return true;
+    if ((_moved && _moved->count(&leaf) > 0) || !_filled(leaf)) return true;
     const auto place = screenBoundsOf(leaf);
     return place && overlap(*place, _bounds);
 }

@@ -104,11 +104,13 @@ std::optional<ScreenRect> screenBoundsOf(const osgUtil::RenderLeaf& leaf);
 /// Tells whether a leaf can draw in a part of the screen.
 class TouchTest {
 public:
-    explicit TouchTest(const ScreenRect& bounds) : _bounds(bounds) {}
+    /// @param moved  leaves that a program moves, wherever; null: none. Must outlive this.
+    explicit TouchTest(const ScreenRect& bounds, const LeafSet* moved = nullptr) : _bounds(bounds), _moved(moved) {}
     bool operator()(const osgUtil::RenderLeaf& leaf);
 
 private:
     const ScreenRect _bounds;
+    const LeafSet* const _moved;
     FilledTest _filled;
 };
 

@@ -111,7 +111,7 @@ void FadingCompositor::replay(const Leaves& leaves, const MarkedLights& lights, 
     LeafReplay replay(_draw, overlay);
     unsigned lostNumbers = 0;
     for (const MarkedLight& light : dark) lostNumbers |= 1u << light.number;
-    TouchTest touches(bounds);
+    TouchTest touches(bounds, jobs.front()->moved.get());
     for (const ReplayedLeaf& leaf : leaves)
         if (!_draw.options.skipsUntouched || touches(*leaf.entry.leaf))
             replay.draw(leaf.entry, leaf.lost & lostNumbers);

@@ -190,22 +190,21 @@ struct SeenStep {
 
 /// Puts among steps, in the order of drawing, what is drawn over one that leaves no depth or colour of its own, and hides it.
 /// @return whether there is any.
-bool addDrawnOver(const CompositorStage& draw, const ScreenRect& bounds, std::vector<SeenStep>& steps) {
+bool addDrawnOver(const CompositorStage& draw, std::vector<SeenStep>& steps) {
     const auto stands = [](const SeenStep& step) {
         return writesDepth(step.entry.leaf->_parent) && writesColor(step.entry.leaf->_parent);
     };
     if (std::all_of(steps.begin(), steps.end(), stands)) return false;
     std::set<const osgUtil::RenderLeaf*> seen;
     for (const SeenStep& step : steps) seen.insert(step.entry.leaf);
-    TouchTest touches(bounds);
     std::vector<SeenStep> all;
     bool open = false, overdrawn = false;
     for (const DrawnLeaf& entry : draw.leaves) {
         const osgUtil::StateGraph* graph = entry.leaf->_parent;
         const bool isSeen = seen.count(entry.leaf) > 0;
         open = open || (isSeen && !stands({entry, true}));
-        const bool hides = !isSeen && open && writesColor(graph) && !isOn(graph, GL_BLEND) &&
-                           !isOn(graph, GL_COLOR_LOGIC_OP) && touches(*entry.leaf);
+        const bool hides =
+            !isSeen && open && writesColor(graph) && !isOn(graph, GL_BLEND) && !isOn(graph, GL_COLOR_LOGIC_OP);
         if (isSeen || hides) all.push_back({entry, isSeen});
         overdrawn = overdrawn || hides;
     }
@@ -468,7 +467,7 @@ void writeWhereSeen(const CompositorStage& draw, const std::vector<ReplayedLeaf>
                     const ScreenRect& bounds) {
     std::vector<SeenStep> steps;
     for (const ReplayedLeaf& leaf : leaves) steps.push_back({leaf.entry, true});
-    const bool overdrawn = bits.scratch && addDrawnOver(draw, bounds, steps);
+    const bool overdrawn = bits.scratch && addDrawnOver(draw, steps);
     const StencilWrite now = overdrawn ? StencilWrite{bits.scratch, bits.scratch, 0} : bits;
     std::optional<LeafReplay> replay;
     LeafReplay::Overlay overlay;
@@ -496,7 +495,7 @@ void writeWhereSeen(const CompositorStage& draw, const std::vector<ReplayedLeaf>
 }
 
 std::vector<ReplayedLeaf> notOfLens(const ShadowJob& job, const std::vector<DrawnLeaf>& leaves) {
-    TouchTest touches(job.mark->screenBounds);
+    TouchTest touches(job.mark->screenBounds, job.moved.get());
     std::vector<ReplayedLeaf> result;
     auto first = leaves.begin(); // of those that may have something to hide
     const auto hidesAny = [&](const DrawnLeaf& entry) {
@@ -517,7 +516,7 @@ std::vector<ReplayedLeaf> leavesToReplay(const CompositorStage& draw, const std:
     const std::vector<DrawnLeaf>& leaves = draw.leaves;
     const bool skips = draw.options.skipsUntouched;
     PlainTest plain;
-    TouchTest touches(bounds);
+    TouchTest touches(bounds, jobs.front()->moved.get());
     const std::size_t last = skips ? lastReceiver(leaves, jobs, plain) : leaves.size();
     std::vector<ReplayedLeaf> result;
     const DrawnLeaf* selfDrawn = nullptr; // draws itself and is left out: it may have set the colour of what has none

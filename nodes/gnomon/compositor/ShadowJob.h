@@ -47,6 +47,7 @@ struct ShadowJob {
     osg::ref_ptr<const osg::RefMatrix> projection; ///< of the technique's view: its lens.
     bool receiverNamed = false;                    ///< only `receivers` lose the light.
     std::shared_ptr<const LeafSet> receivers;      ///< see ViewFrame.
+    std::shared_ptr<const LeafSet> moved; ///< leaves of the view that a program moves out of their boxes; null: none.
     bool hidingOnly = false; ///< a receiver loses the light only where it hides what is behind, see LateReceivers.
     std::vector<LightUniform> lightUniforms; ///< of the group.
 

@@ -241,7 +241,7 @@ void StencilMarks::gate(const ShadowJob& job, unsigned bit) const {
     overlay.bounds = job.mark->screenBounds;
     overlay.mark = job.mark.get();
     LeafReplay replay(_draw, overlay);
-    TouchTest touches(job.mark->screenBounds);
+    TouchTest touches(job.mark->screenBounds, job.moved.get());
     for (const DrawnLeaf& entry : _draw.leaves)
         if (job.isNamed(entry.leaf) && touches(*entry.leaf)) replay.draw(entry);
 }

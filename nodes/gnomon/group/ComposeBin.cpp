@@ -44,12 +44,12 @@ std::size_t bitsOfLights(const std::vector<ShadowJob>& jobs) {
 }
 
 /// Where a framebuffer of the kit's own could not take over depths. What blends, or tests, does so as in the frame.
-void drawDepths(const CompositorStage& draw, const ScreenRect& bounds) {
+void drawDepths(const CompositorStage& draw, const ScreenRect& bounds, const LeafSet* moved) {
     LeafReplay::Overlay overlay;
     overlay.color = LeafReplay::Color::None;
     overlay.bounds = bounds;
     LeafReplay replay(draw, overlay);
-    TouchTest touches(bounds);
+    TouchTest touches(bounds, moved);
     for (const DrawnLeaf& entry : draw.leaves)
         if (touches(*entry.leaf)) replay.draw(entry);
 }
@@ -164,7 +164,7 @@ std::string ComposeBin::compose(osg::RenderInfo& renderInfo, std::vector<DrawnLe
     const std::string cause = needs.stencilBits > 0 ? whyNotComposed(draw) : "";
     if (cause.empty()) {
         if (target.lacksDepth()) {
-            drawDepths(draw, needs.bounds);
+            drawDepths(draw, needs.bounds, _jobs.empty() ? nullptr : _jobs.front().moved.get());
             if (std::any_of(draw.leaves.begin(), draw.leaves.end(), mayStencilHide))
                 for (const ShadowJob& job : _jobs)
                     job.report(

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/CompositorOptions.h>
 #include <gnomon/compositor/CompositorTarget.h>
 #include <gnomon/compositor/DrawnLeaves.h>
 #include <gnomon/compositor/MaterialHistory.h>

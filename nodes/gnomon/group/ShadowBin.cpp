@@ -127,11 +127,12 @@ void addMarks(FrameWork& work, const std::vector<ShadowJob>& jobs, std::size_t f
 }
 
 /// Where leaves can be seen.
-std::optional<ScreenRect> boundsOf(const std::vector<const osgUtil::RenderLeaf*>& leaves) {
+std::optional<ScreenRect> boundsOf(const Leaves& leaves, const ProgramCauses& programs) {
     std::optional<ScreenRect> all;
     FilledTest filled;
     for (const osgUtil::RenderLeaf* leaf : leaves)
-        if (const std::optional<ScreenRect> place = filled(*leaf) ? screenBoundsOf(*leaf) : wholeScreen)
+        if (const std::optional<ScreenRect> place =
+                filled(*leaf) && !programs.moves(*leaf) ? screenBoundsOf(*leaf) : wholeScreen)
             all = all ? united(*all, *place) : *place;
     return all;
 }
@@ -165,7 +166,7 @@ std::vector<ReceiverPart> partsOf(const Leaves& leaves, const StageLeaves& drawn
     std::vector<ReceiverPart> parts;
     for (auto& [placement, those] : byPlacement) {
         const bool apart = late || byPlacement.size() > 1;
-        const std::optional<ScreenRect> within = apart ? boundsOf(those) : wholeScreen;
+        const std::optional<ScreenRect> within = apart ? boundsOf(those, drawn.programs) : wholeScreen;
         parts.push_back({std::move(those), placement, late, !apart && !named, within});
     }
     return parts;
@@ -182,6 +183,8 @@ ViewFrame viewOf(ViewFrame view, const TechniqueInStage& asked, const ReceiverPa
     if (!asked.drawn.depthless.empty())
         std::remove_copy_if(part.leaves.begin(), part.leaves.end(), std::back_inserter(view.seen), isDepthless);
     if (view.seen.empty()) view.seen = part.leaves;
+    const auto isMoved = [&asked](const auto* leaf) { return asked.drawn.programs.moves(*leaf); };
+    view.movesReceivers = asked.drawn.programs.moved() && std::any_of(view.seen.begin(), view.seen.end(), isMoved);
     return view;
 }
 
@@ -375,6 +378,7 @@ void ShadowBin::addJobs(const TechniqueInStage& asked, const GroupLights& found,
                 ShadowJob job = jobFor(entry, light);
                 job.receiverNamed = !part.isAll;
                 job.receivers = receivers;
+                job.moved = asked.drawn.programs.moved();
                 job.mark = mark;
                 mark->screenBounds = common(mark->screenBounds, *part.within);
                 const bool isForPrograms = job.programMark() != nullptr; // these are served once

@@ -49,10 +49,10 @@ ProgramCauses::ProgramCauses(osgUtil::RenderStage& stage) : _eyeFromWorld(*stage
         if (places->second.movesVertices && !drawsItself(*entry.leaf->_drawable)) _moving.push_back(entry);
         if (places->second.setsDepth) _setDepths.insert(entry.leaf);
     }
-}
-
-bool ProgramCauses::moves(const osgUtil::RenderLeaf& leaf) const {
-    return std::any_of(_moving.begin(), _moving.end(), [&](const DrawnLeaf& entry) { return entry.leaf == &leaf; });
+    if (_moving.empty()) return;
+    auto moved = std::make_shared<LeafSet>();
+    for (const DrawnLeaf& entry : _moving) moved->insert(entry.leaf);
+    _moved = moved;
 }
 
 void ProgramCauses::report(const FrameReport& report, const ShadowCasterGroup& group, const Leaves& receiving,

@@ -16,6 +16,7 @@
 #include <osgUtil/StateGraph>
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -59,10 +60,13 @@ public:
                 const Leaves& receivingLate) const;
 
     /// True if the leaf's program moves its vertices, so that it is not where its box is.
-    bool moves(const osgUtil::RenderLeaf& leaf) const;
+    bool moves(const osgUtil::RenderLeaf& leaf) const { return _moved && _moved->count(&leaf) > 0; }
+    /// All such leaves; null if there are none.
+    const std::shared_ptr<const LeafSet>& moved() const { return _moved; }
 
 private:
     std::vector<DrawnLeaf> _moving;                  ///< Their program moves vertices.
+    std::shared_ptr<const LeafSet> _moved;           ///< The same, to be asked for by address.
     std::set<const osgUtil::RenderLeaf*> _setDepths; ///< Their program sets a depth of its own.
     osg::Matrixd _eyeFromWorld;
 };

@@ -83,7 +83,7 @@ std::vector<PlacedBox> receiversOf(const ViewFrame& view, const glm::dmat4& eyeF
     const auto add = [&sized](const PlacedBox& box) {
         sized.emplace_back(glm::length(glm::dvec3(box.sceneFromBox * glm::dvec4(box.high - box.low, 0.0))), box);
     };
-    bool anywhere = false;
+    bool anywhere = view.movesReceivers;
     for (const osgUtil::RenderLeaf* leaf : view.seen) {
         const osg::BoundingBox& box = leaf->_drawable->getBoundingBox();
         anywhere = anywhere || !box.valid();

@@ -182,7 +182,7 @@ ReceiverBox receiversOf(const ViewFrame& view, const SceneFrame& scene) {
     ReceiverBox all{glm::dvec3(never), glm::dvec3(-never)};
     for (const osgUtil::RenderLeaf* leaf : view.seen) {
         const osg::BoundingBox& box = leaf->_drawable->getBoundingBox();
-        if (!box.valid()) return {glm::dvec3(-never), glm::dvec3(never)};
+        if (!box.valid() || view.movesReceivers) return {glm::dvec3(-never), glm::dvec3(never)};
         if (!known || known != leaf->_modelview) sceneFromBox = modelviewOf(*leaf) * sceneFromEye;
         known = leaf->_modelview.get();
         expand(all, box, sceneFromBox);
