@@ -12,6 +12,7 @@
 #include <osg/Program>
 #include <osg/VertexProgram>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -180,6 +181,12 @@ Scene phantoms() {
     return scene;
 }
 
+void expectNoStencil(Camera& camera) {
+    const osg::ref_ptr<const osg::Image> bits = camera.context().stencil();
+    const unsigned char* const end = bits->data() + bits->getTotalSizeInBytes();
+    EXPECT_TRUE(std::all_of(bits->data(), end, [](unsigned char value) { return value == 0; }));
+}
+
 const View small = perspective({-10.0, -14.0, 12.0}, {0.0, 0.0, 0.0}, 120, 90);
 
 } // namespace
@@ -192,7 +199,9 @@ TEST(Catchers, OfAllTechniquesTakeTheFactorOnceAndAreNamedWhereLightIsTaken) {
             const Picture expected = halved(render(lit.root, small));
             scene.addShadow(spec);
             scene.group->setComposite(composite);
-            const Picture actual = render(scene.root, small);
+            Camera camera(scene.root, small);
+            const Picture actual = camera.frame();
+            expectNoStencil(camera);
             int shadowed = 0, other = 0;
             for (const std::uint32_t pixel : actual.pixels) {
                 shadowed += pixel == expected.pixels[0];
@@ -214,8 +223,9 @@ TEST(Catchers, TakeTheShareOfSmoothEdges) {
         Scene scene = phantoms();
         scene.addShadow("map:edges=smooth");
         scene.group->setComposite(composite);
+        Camera camera(scene.root, small);
         int darkest = 0, between = 0, darker = 0;
-        for (const std::uint32_t pixel : render(scene.root, small).pixels) {
+        for (const std::uint32_t pixel : camera.frame().pixels) {
             const int blue = pixel >> 16 & 0xff;
             darkest += blue == 0x20;
             between += blue > 0x20 && blue < 0x40;
@@ -224,6 +234,7 @@ TEST(Catchers, TakeTheShareOfSmoothEdges) {
         EXPECT_GT(darkest, 100);
         EXPECT_GT(between, 20);
         EXPECT_EQ(darker, 0);
+        expectNoStencil(camera);
     }
 }
 

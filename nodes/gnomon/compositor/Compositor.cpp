@@ -177,6 +177,7 @@ void Compositor::darken(const std::vector<ReplayedLeaf>& catchers, unsigned ligh
         screen.takeStencil(seen, seen);
         screen.multiplyColor(jobs.front()->dark);
     });
+    _draw.clear(seen, wholeScreen); // leaves are not cut to the bounds
     for (const ReplayedLeaf& leaf : catchers) reportNotRelit(*leaf.entry.leaf, jobs);
 }
 

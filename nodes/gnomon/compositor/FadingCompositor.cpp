@@ -56,6 +56,7 @@ void FadingCompositor::darkenAside(const Leaves& aside, const MarkedLights& ligh
     if (darkened.empty()) return;
     writeWhereSeen(_draw, darkened, {faded, faded, faded}, bounds);
     multiplyByFactor(lights, jobs.front()->dark, bounds);
+    _draw.clear(faded, wholeScreen); // leaves are not cut to the bounds
     if (!keptBy<StageVerdict>(_draw.stage).askToName()) return;
     for (const ReplayedLeaf& leaf : darkened)
         reportAll(jobs,

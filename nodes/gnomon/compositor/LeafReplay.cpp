@@ -491,7 +491,7 @@ void writeWhereSeen(const CompositorStage& draw, const std::vector<ReplayedLeaf>
         screen.stencilEqual(bits.scratch | bits.reference, bits.scratch, bits.write);
         screen.drawQuad();
     });
-    draw.clear(bits.scratch, bounds);
+    draw.clear(bits.scratch, wholeScreen); // leaves are not cut to the bounds
 }
 
 std::vector<ReplayedLeaf> notOfLens(const ShadowJob& job, const std::vector<DrawnLeaf>& leaves) {

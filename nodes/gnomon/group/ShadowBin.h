@@ -25,11 +25,11 @@ struct TechniqueInStage;
 ///         more, big ones in part (TriangleClusters). One job with a named receiver that nothing else shows on: its leaves
 ///         alone, at equal depth. Marks that fade: a few more steps, and each set of lights that are gone once more.
 /// Needs   one stencil bit a relit light, one more for several jobs or for receivers that others show on; for marks
-///         that fade alpha bits; alpha is 1 afterwards where something stands within the marks' bounds. Where the framebuffer lacks them, or leaves use its
-///         stencil, all is done in one of the kit's own (CompositorTarget). A stage that clears depth clears stencil too,
+///         that fade alpha bits; alpha is 1 afterwards where something stands within the marks' bounds. Where the
+///         framebuffer lacks them, or leaves use its stencil, all is done in one of the kit's own (CompositorTarget). A stage that clears depth clears stencil too,
 ///         unless bits are reserved or in use. Interlaced stereo keeps its stencil bit.
-/// Limits  three relit lights; the others stay unshadowed. Unlit receivers, and those whose program reads no OpenGL
-///         light's colour, take a factor; where an opaque leaf has a stencil test of its own all is blended; under soft
+/// Limits  three relit lights; the others stay unshadowed. Unlit receivers, those without colour, and those whose program
+///         reads no OpenGL light's colour, take a factor; where an opaque leaf has a stencil test of its own all is blended; under soft
 ///         edges what blends or writes no depth takes the factor. diagnose() says so.
 ///         Under soft edges opaque layers at the very same depth are mixed one after the other. A leaf that sets no
 ///         colour of its own and takes that of the leaf before it may take another. Reversed depth is refused.
