@@ -149,6 +149,19 @@ TEST_P(AnyWindowBy, WithoutStencilShowsTheSameBits) {
     }
 }
 
+/// As osgViewer leaves viewports after a resize. OpenGL has none of the fractions: osg::Viewport::apply() drops them.
+TEST_P(AnyWindowBy, WhoseViewportHasFractionsShowsTheBitsOfTheWholeOne) {
+    const auto drawn = [](const std::string& spec, const osg::ref_ptr<osg::Viewport>& viewport) {
+        Camera camera(shadowed(spec).root, slanted);
+        camera.viewer().getCamera()->setViewport(viewport);
+        return third(camera);
+    };
+    const auto whole = [] { return new osg::Viewport(23, 11, 130, 97); };
+    const Picture with = drawn(GetParam(), whole());
+    EXPECT_GT(with.different(drawn("", whole())), 200);
+    EXPECT_EQ(drawn(GetParam(), new osg::Viewport(23.97, 11.94, 130.91, 97.83)).different(with), 0);
+}
+
 TEST_P(AnyWindowBy, AnObjectWithoutStencilAndOneWithoutAlphaShowTheSameBits) {
     for (const unsigned samples : {0u, 4u}) {
         const Scene withStencil = shadowed(GetParam());

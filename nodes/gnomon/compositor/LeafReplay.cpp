@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/ScreenPass.h>
+#include <gnomon/base/PixelRect.h>
 #include <gnomon/compositor/LeafReplay.h>
 #include <gnomon/compositor/MaterialHistory.h>
 #include <gnomon/compositor/ResolvedState.h>
@@ -326,9 +327,7 @@ bool LeafReplay::canDrawClusters(const osgUtil::RenderLeaf& leaf, const osg::Geo
 
 void LeafReplay::drawGeometry(const osgUtil::RenderLeaf& leaf) {
     if (_overlay.shifts.empty()) return drawOnce(leaf);
-    const osg::Viewport& view = *_state.getCurrentViewport();
-    const auto x = static_cast<GLint>(view.x()), y = static_cast<GLint>(view.y());
-    const auto width = static_cast<GLsizei>(view.width()), height = static_cast<GLsizei>(view.height());
+    const auto [x, y, width, height] = pixelsOf(*_state.getCurrentViewport());
     glEnable(GL_SCISSOR_TEST);
     glScissor(x, y, width, height);
     for (const glm::ivec2& shift : _overlay.shifts) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
+#include <gnomon/base/PixelRect.h>
 #include <gnomon/base/ProgramText.h>
 #include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/compositor/VastLeaves.h>
@@ -127,7 +128,8 @@ std::vector<VastLeaf> vastLeaves(const std::vector<DrawnLeaf>& leaves, const osg
         const osg::Matrixd& projection = projectionOf(leaf);
         if (projection(3, 3) != 0.0 || !(projection(2, 2) < -1.0)) continue; // no perspective, or an endless one
         const double near = projection(3, 2) / (projection(2, 2) - 1.0),
-                     pixel = 2.0 / (projection(1, 1) * viewport.height()), longest = tolerance / lost * near * pixel;
+                     pixel = 2.0 / (projection(1, 1) * pixelsOf(viewport).height),
+                     longest = tolerance / lost * near * pixel;
         const osg::BoundingBox& box = leaf._drawable->getBoundingBox();
         const osg::Geometry* geometry = leaf._drawable->asGeometry();
         const double scale = scaleOf(modelviewOf(leaf));

@@ -97,8 +97,6 @@ void blitMirrored(const osg::GLExtensions& gl, const PixelRect& pixels, GLint he
     if (cut) glEnable(GL_SCISSOR_TEST);
 }
 
-int endOf(double start, double size) { return static_cast<int>(std::ceil(start + size)); }
-
 constexpr double stepsOff = 4.0; // as depthBufferShadow()
 constexpr double snapsOff = 2.0;
 
@@ -243,17 +241,15 @@ bool FrameDepthCopy::mirror(osg::State& state, Target& target, const PixelRect& 
 }
 
 FrameDepthCopy::Target& FrameDepthCopy::targetFor(const osg::State& state, const PixelRect& pixels, bool packed) {
-    const osg::Viewport& viewport = *state.getCurrentViewport();
+    const PixelRect all = pixelsOf(*state.getCurrentViewport());
     Lock lock(_mutex);
     Target& target = _targets[{state.getContextID(), packed}];
     target.packed = packed;
     osg::ref_ptr<osg::Texture2D>& texture = target.texture;
     if (!texture) texture = depthTexture(packed);
     // As the viewport, not as the pixels: these grow with a shadow that moves, and each time another texture would be made.
-    const int width =
-        std::max({texture->getTextureWidth(), pixels.x + pixels.width, endOf(viewport.x(), viewport.width())});
-    const int height =
-        std::max({texture->getTextureHeight(), pixels.y + pixels.height, endOf(viewport.y(), viewport.height())});
+    const int width = std::max({texture->getTextureWidth(), pixels.x + pixels.width, all.x + all.width});
+    const int height = std::max({texture->getTextureHeight(), pixels.y + pixels.height, all.y + all.height});
     if (width != texture->getTextureWidth() || height != texture->getTextureHeight()) {
         texture->setTextureSize(width, height);
         texture->dirtyTextureObject();
@@ -276,14 +272,13 @@ bool FrameColorCopy::save(osg::State& state, const osg::Viewport& viewport) {
     if (isObject && valueOf(GL_SAMPLE_BUFFERS) > 0) return false;
     state.setActiveTextureUnit(0);
     osg::Texture2D& texture = of(state.getContextID());
-    const auto x = static_cast<int>(viewport.x()), y = static_cast<int>(viewport.y());
-    const auto width = static_cast<int>(viewport.width()), height = static_cast<int>(viewport.height());
+    const PixelRect all = pixelsOf(viewport);
     GLint box[4];
     glGetIntegerv(GL_SCISSOR_BOX, box);
-    if (texture.getTextureWidth() == width && texture.getTextureHeight() == height)
-        texture.copyTexSubImage2D(state, box[0] - x, box[1] - y, box[0], box[1], box[2], box[3]);
+    if (texture.getTextureWidth() == all.width && texture.getTextureHeight() == all.height)
+        texture.copyTexSubImage2D(state, box[0] - all.x, box[1] - all.y, box[0], box[1], box[2], box[3]);
     else
-        texture.copyTexImage2D(state, x, y, width, height);
+        texture.copyTexImage2D(state, all.x, all.y, all.width, all.height);
     return true;
 }
 
@@ -326,9 +321,10 @@ void FrameColorCopy::release(osg::State* state) {
 }
 
 glm::dmat4 clipFromPixel(const osg::Viewport& viewport) {
-    const glm::dvec3 half(viewport.width() / 2.0, viewport.height() / 2.0, -0.5);
+    const PixelRect all = pixelsOf(viewport);
+    const glm::dvec3 half(all.width / 2.0, all.height / 2.0, -0.5);
     const glm::dmat4 atCorner = glm::translate(glm::dmat4(1.0), glm::dvec3(-1.0, -1.0, 1.0));
-    return glm::translate(glm::scale(atCorner, 1.0 / half), glm::dvec3(-viewport.x(), -viewport.y(), 0.0));
+    return glm::translate(glm::scale(atCorner, 1.0 / half), glm::dvec3(-all.x, -all.y, 0.0));
 }
 
 } // namespace gnomon

@@ -86,9 +86,10 @@ void leaveDefaults(osg::State& state) {
     glStencilMask(~0u);
     glBlendFunc(GL_ONE, GL_ZERO);
     state.get<osg::GLExtensions>()->glBlendColor(0.0f, 0.0f, 0.0f, 0.0f);
-    if (const osg::Viewport* viewport = state.getCurrentViewport()) // as osgUtil::RenderStage leaves it
-        glScissor(static_cast<GLint>(viewport->x()), static_cast<GLint>(viewport->y()),
-                  static_cast<GLsizei>(viewport->width()), static_cast<GLsizei>(viewport->height()));
+    if (const osg::Viewport* viewport = state.getCurrentViewport()) { // as osgUtil::RenderStage leaves it
+        const PixelRect all = pixelsOf(*viewport);
+        glScissor(all.x, all.y, all.width, all.height);
+    }
     for (A::Type type :
          {A::SCISSOR, A::STENCIL, A::BLENDFUNC, A::BLENDCOLOR, A::BLENDEQUATION, A::DEPTH, A::ALPHAFUNC, A::COLORMASK})
         state.haveAppliedAttribute(type);
@@ -97,10 +98,10 @@ void leaveDefaults(osg::State& state) {
 PixelRect pixelsInScissor(const osg::Viewport& viewport) {
     GLint box[4];
     glGetIntegerv(GL_SCISSOR_BOX, box);
-    const GLint left = std::max({0, box[0], static_cast<GLint>(viewport.x())});
-    const GLint low = std::max({0, box[1], static_cast<GLint>(viewport.y())});
-    const GLint right = std::min(box[0] + box[2], static_cast<GLint>(viewport.x() + viewport.width()));
-    const GLint high = std::min(box[1] + box[3], static_cast<GLint>(viewport.y() + viewport.height()));
+    const PixelRect all = pixelsOf(viewport);
+    const GLint left = std::max({0, box[0], all.x}), low = std::max({0, box[1], all.y});
+    const GLint right = std::min(box[0] + box[2], all.x + all.width);
+    const GLint high = std::min(box[1] + box[3], all.y + all.height);
     return {left, low, right - left, high - low};
 }
 

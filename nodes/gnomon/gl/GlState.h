@@ -2,6 +2,7 @@
 #pragma once
 
 #include <gnomon/ScreenRect.h>
+#include <gnomon/base/PixelRect.h>
 
 #include <glm/vec2.hpp>
 #include <osg/RenderInfo>
@@ -68,13 +69,7 @@ void leaveDefaults(osg::State& state);
 /// Switches blending on: what is drawn times `source` is added to what stands times `destination`.
 void addBlended(const osg::State& state, GLenum source, GLenum destination);
 
-/// What is neither cut away by the scissor nor by the viewport, in window coordinates.
-struct PixelRect {
-    GLint x = 0, y = 0;
-    GLsizei width = 0, height = 0;
-
-    bool empty() const { return width <= 0 || height <= 0; }
-};
+/// What is neither cut away by the scissor nor by the viewport.
 PixelRect pixelsInScissor(const osg::Viewport& viewport);
 /// Pixels of a viewport whose centres lie within bounds, and one more on either side.
 PixelRect pixelsWithin(const ScreenRect& bounds, const osg::Viewport& viewport);

@@ -26,8 +26,9 @@ Interval pixels(double low, double high, double start, double size) {
 } // namespace
 
 PixelRect pixelsWithin(const ScreenRect& bounds, const osg::Viewport& viewport) {
-    const Interval x = pixels(bounds.low.x, bounds.high.x, viewport.x(), viewport.width());
-    const Interval y = pixels(bounds.low.y, bounds.high.y, viewport.y(), viewport.height());
+    const PixelRect all = pixelsOf(viewport);
+    const Interval x = pixels(bounds.low.x, bounds.high.x, all.x, all.width);
+    const Interval y = pixels(bounds.low.y, bounds.high.y, all.y, all.height);
     return {x.first, y.first, x.count, y.count};
 }
 

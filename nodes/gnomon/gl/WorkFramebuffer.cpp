@@ -8,7 +8,6 @@
 #include <glm/vec2.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 namespace gnomon {
 namespace {
@@ -121,10 +120,11 @@ struct Placement {
 };
 
 Placement placementOf(const osg::State& state, const osg::Viewport& viewport, bool isWindow) {
+    const PixelRect all = pixelsOf(viewport);
     Placement place;
     place.isWindow = isWindow;
-    place.width = std::max(1, static_cast<GLsizei>(std::ceil(viewport.x() + viewport.width())));
-    place.height = std::max(1, static_cast<GLsizei>(std::ceil(viewport.y() + viewport.height())));
+    place.width = std::max(1, all.x + all.width);
+    place.height = std::max(1, all.y + all.height);
     place.fits = !isWindow || heightOf(state) >= place.height;
     if (isWindow && place.fits) place.height = heightOf(state);
     return place;

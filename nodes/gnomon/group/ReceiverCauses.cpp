@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/base/Fingerprint.h>
+#include <gnomon/base/PixelRect.h>
 #include <gnomon/compositor/KeptByStage.h>
 #include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/compositor/ShadowJob.h>
@@ -235,7 +236,8 @@ void reportUnshadowed(const TechniqueInStage& asked, const std::vector<ShadowLig
 void reportCoarseDepth(const TechniqueInStage& asked, const ShadowLight& light, const Casters& casters, double steps) {
     const EnlistedTechnique& entry = asked.entry;
     osgUtil::RenderStage& stage = asked.stage;
-    const DepthPixels pixels{{stage.getViewport()->width(), stage.getViewport()->height()}, steps};
+    const PixelRect all = pixelsOf(*stage.getViewport());
+    const DepthPixels pixels{{double(all.width), double(all.height)}, steps};
     const Leaves none;
     const LightInView lit{*entry.group, light, casters, none, entry.eyeFromGroup};
     if (!reachesCoarseDepth(lit, *entry.projection, pixels)) return;

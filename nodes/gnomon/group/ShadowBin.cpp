@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/ViewFrame.h>
+#include <gnomon/base/PixelRect.h>
 #include <gnomon/casters/DrawableTriangles.h>
 #include <gnomon/compositor/KeptByStage.h>
 #include <gnomon/compositor/PrepassBin.h>
@@ -117,7 +118,8 @@ ShadowJob jobFor(const EnlistedTechnique& entry, const ShadowLight& light) {
 }
 
 void addMarks(FrameWork& work, const std::vector<ShadowJob>& jobs, std::size_t from, const osg::Viewport& viewport) {
-    const glm::dvec2 pixels(viewport.width(), viewport.height());
+    const PixelRect all = pixelsOf(viewport);
+    const glm::dvec2 pixels(all.width, all.height);
     for (std::size_t i = from; i < jobs.size(); ++i) {
         const ScreenRect& bounds = jobs[i].mark->screenBounds;
         const glm::dvec2 size = 0.5 * (bounds.high - bounds.low) * pixels;

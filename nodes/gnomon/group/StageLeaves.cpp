@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/base/PixelRect.h>
 #include <gnomon/base/ProgramText.h>
 #include <gnomon/casters/DrawableTriangles.h>
 #include <gnomon/group/StageLeaves.h>
@@ -29,8 +30,9 @@ const osgUtil::RenderLeaf* firstCaster(const ShadowCasterGroup& group, const std
 } // namespace
 
 ViewFrame viewOf(const EnlistedTechnique& entry, const osg::Viewport& viewport) {
+    const PixelRect all = pixelsOf(viewport);
     ViewFrame view;
-    view.pixels = {viewport.width(), viewport.height()};
+    view.pixels = {double(all.width), double(all.height)};
     view.eyeFromGroup = entry.eyeFromGroup;
     view.groupFromTechnique = entry.groupFromTechnique;
     view.projection = *entry.projection;

@@ -22,9 +22,10 @@ constexpr double reachedOver = 2.0; // texels at a tile's sides that a compariso
 /// Whole quads of pixels, which OpenGL shades together, as far as they are in view. What is left of the window or below it is no
 /// pixel.
 PixelRect wholeQuads(const PixelRect& pixels, const osg::Viewport& viewport) {
-    const int endX = std::min((pixels.x + pixels.width + 1) & ~1, int(viewport.x() + viewport.width())),
-              endY = std::min((pixels.y + pixels.height + 1) & ~1, int(viewport.y() + viewport.height())),
-              x = std::max({pixels.x & ~1, int(viewport.x()), 0}), y = std::max({pixels.y & ~1, int(viewport.y()), 0});
+    const PixelRect all = pixelsOf(viewport);
+    const int endX = std::min((pixels.x + pixels.width + 1) & ~1, all.x + all.width),
+              endY = std::min((pixels.y + pixels.height + 1) & ~1, all.y + all.height),
+              x = std::max({pixels.x & ~1, all.x, 0}), y = std::max({pixels.y & ~1, all.y, 0});
     return {x, y, endX - x, endY - y};
 }
 
@@ -205,14 +206,14 @@ MapConstants MapLookup::constantsOf(const osg::State& state, const FrameDepthCop
 
 /// 1 / w is that row of the matrix times a pixel's place: of most projections it depends on e alone.
 glm::dvec4 MapLookup::drawnErrorOf(const osg::State& state, const glm::dmat4& sceneFromPixel) const {
-    const osg::Viewport& viewport = *state.getCurrentViewport();
+    const PixelRect all = pixelsOf(*state.getCurrentViewport());
     const DrawnError off =
-        drawnError(_places.clipFromScene, toGlm(state.getProjectionMatrix()), viewport.width(), _places.rounding, 0.0);
+        drawnError(_places.clipFromScene, toGlm(state.getProjectionMatrix()), all.width, _places.rounding, 0.0);
     const glm::dvec4 row = off.depth * glm::row(sceneFromPixel, 3);
     const auto most = [](double change, double start, double size) {
         return std::max(change * start, change * (start + size));
     };
-    const double beside = most(row.x, viewport.x(), viewport.width()) + most(row.y, viewport.y(), viewport.height());
+    const double beside = most(row.x, all.x, all.width) + most(row.y, all.y, all.height);
     return {row.w + beside, row.z, off.depth > 0.0 ? off.pixels / off.depth : 0.0, reachedOver / _maps.picture->size};
 }
 
@@ -241,10 +242,10 @@ void MapLookup::drawDebugView(ScreenPass& pass, int before) const {
 /// A third as high as the view, one light's beside the other's from the lower left corner on.
 void MapLookup::drawPicture(osg::State& state, ScreenPass& pass, int before) const {
     if (!UncomparedSampler::isSupported(state)) return;
-    const osg::Viewport& viewport = *state.getCurrentViewport();
-    const int height = static_cast<int>(viewport.height() / 3.0);
+    const PixelRect all = pixelsOf(*state.getCurrentViewport());
+    const int height = all.height / 3;
     const int width = static_cast<int>(std::lround(double(height) * _maps.map->size.x / _maps.map->size.y));
-    const int x = static_cast<int>(viewport.x()) + before * width, y = static_cast<int>(viewport.y());
+    const int x = all.x + before * width, y = all.y;
     glScissor(x, y, width, height);
     _maps.map->bind(state, 0);
     const UncomparedSampler raw(state, 0);

@@ -2,6 +2,7 @@
 #include <gnomon/Convert.h>
 #include <gnomon/Plane.h>
 #include <gnomon/ScreenPass.h>
+#include <gnomon/base/PixelRect.h>
 #include <gnomon/gl/ShaderProgram.h>
 #include <gnomon/planar/PlanarMark.h>
 
@@ -21,7 +22,8 @@ constexpr GLenum clipBelowLight = GL_CLIP_PLANE1;
 double depthOf(const glm::dvec2& offset, const osg::Viewport& viewport, const glm::dvec3& depth) {
     GLint depthBits = 24;
     glGetIntegerv(GL_DEPTH_BITS, &depthBits);
-    const double slope = std::abs(depth.x) / viewport.width() + std::abs(depth.y) / viewport.height(); // a pixel
+    const PixelRect all = pixelsOf(viewport);
+    const double slope = std::abs(depth.x) / all.width + std::abs(depth.y) / all.height; // a pixel
     return offset.x * slope + offset.y * std::ldexp(1.0, -std::min(depthBits, 24));
 }
 

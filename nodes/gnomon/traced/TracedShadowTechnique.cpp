@@ -5,6 +5,7 @@
 #include <gnomon/ScreenPass.h>
 #include <gnomon/TracedShadowTechnique.h>
 #include <gnomon/ViewFrame.h>
+#include <gnomon/base/PixelRect.h>
 #include <gnomon/casters/Casters.h>
 #include <gnomon/casters/RaySceneCache.h>
 #include <gnomon/compositor/ShadowJob.h>
@@ -126,12 +127,12 @@ bool isSamePart(const DepthPicture& a, const DepthPicture& b) {
 
 /// What the marks' bounds leave, at which the scissor stands.
 DepthPicture partInScissor(const osg::Viewport& viewport) {
-    const PixelRect pixels = pixelsInScissor(viewport);
+    const PixelRect pixels = pixelsInScissor(viewport), all = pixelsOf(viewport);
     DepthPicture part;
-    part.viewportWidth = static_cast<int>(viewport.width());
-    part.viewportHeight = static_cast<int>(viewport.height());
-    part.x = pixels.x - static_cast<int>(viewport.x());
-    part.y = pixels.y - static_cast<int>(viewport.y());
+    part.viewportWidth = all.width;
+    part.viewportHeight = all.height;
+    part.x = pixels.x - all.x;
+    part.y = pixels.y - all.y;
     part.width = pixels.width;
     part.height = pixels.height;
     return part;
@@ -139,8 +140,8 @@ DepthPicture partInScissor(const osg::Viewport& viewport) {
 
 /// @return false if this framebuffer's depth cannot be read.
 bool readDepth(osg::State& state, ResolvedDepth& resolved, DepthPicture& part) {
-    const osg::Viewport& viewport = *state.getCurrentViewport();
-    const GLint x = part.x + static_cast<GLint>(viewport.x()), y = part.y + static_cast<GLint>(viewport.y());
+    const PixelRect all = pixelsOf(*state.getCurrentViewport());
+    const GLint x = part.x + all.x, y = part.y + all.y;
     part.depths.resize(std::size_t(part.width) * std::size_t(part.height));
     part.step = std::ldexp(1.0, -std::min(glInteger(GL_DEPTH_BITS), 24));
     part.subpixel = std::ldexp(1.0, -std::clamp(glInteger(GL_SUBPIXEL_BITS), 4, 16));
