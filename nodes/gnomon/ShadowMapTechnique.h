@@ -44,6 +44,7 @@ class ShadowMapCache;
 /// - An object also loses its shadow where it is nearer than OpenGL draws things off their place, by large
 ///   coordinates in vertices.
 /// - Far from a very close near plane, depths are too coarse to place shadows. diagnose() names such a caster.
+/// - Vertices very far from their origin, as in national coordinates, are drawn off their place. diagnose() names them.
 /// - A lamp inside a closed box may light single pixels along the box's edges.
 /// - Where a lit face is one pixel wide between others, a pixel of it may be dark.
 /// - A penumbra is that of one straight edge at the blockers' mean distance. Overlapping edges at several distances are

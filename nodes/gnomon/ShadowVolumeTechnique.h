@@ -38,6 +38,7 @@ class VolumeCache;
 ///   lies over itself more often, its shadow may have holes, and diagnose() says so.
 /// - Casters are kept as floats about the place where most triangles are. Others at 100 km are right to a centimetre.
 /// - Far from a very close near plane, depths are too coarse to place shadows. diagnose() names such a caster.
+/// - Vertices very far from their origin, as in national coordinates, are drawn off their place. diagnose() names them.
 /// - Drawables that write no depth do not receive.
 /// - A spot casts as a lamp: its cone is as OpenGL draws it, by vertex.
 /// Threads

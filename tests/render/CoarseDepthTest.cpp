@@ -8,6 +8,7 @@
 #include <gnomon/TracedShadowTechnique.h>
 #include <gnomon/group/LitCauses.h>
 #include <gtest/gtest.h>
+#include <osg/MatrixTransform>
 
 #include <cmath>
 #include <string>
@@ -33,13 +34,22 @@ Causes said(gnomon::ShadowTechnique& technique, const Scene& scene, const View& 
     return technique.diagnose();
 }
 
+/// Vertices about their middle: near the origin OpenGL draws them where they are.
+osg::ref_ptr<osg::Node> placed(const Mesh& mesh) {
+    const glm::dvec3 at = mesh.front();
+    const osg::ref_ptr<osg::MatrixTransform> result =
+        new osg::MatrixTransform(osg::Matrixd::translate(at.x, at.y, at.z));
+    result->addChild(node(moved(mesh, -at), "tower"));
+    return result;
+}
+
 /// A tower on a wide ground.
 struct Trial {
     explicit Trial(osg::ref_ptr<gnomon::ShadowTechnique> with, const Mesh& caster = tower)
         : technique(std::move(with)) {
         scene = test::scene({1.0, 0.0, 1.0, 0.0});
         scene.content->addChild(node(square(1200.0), "ground"));
-        scene.content->addChild(node(caster, "tower"));
+        scene.content->addChild(placed(caster));
         scene.addShadow(technique);
     }
     Causes seen(const View& view) { return said(*technique, scene, view); }

@@ -4,6 +4,7 @@
 #include <support/Oracle.h>
 #include <support/Scene.h>
 
+#include <gnomon/AutoShadowTechnique.h>
 #include <gnomon/ShadowMapTechnique.h>
 #include <gnomon/ShadowVolumeTechnique.h>
 #include <gnomon/TracedShadowTechnique.h>
@@ -172,6 +173,59 @@ TEST(Scales, MapIsRightWhereLargeCoordinatesAreInTheVertices) {
             for (const double far : {200.0, 1e3})
                 EXPECT_EQ(wrong(baked(place, lamp, far), map, 2), 0)
                     << place.x << (lamp ? ", a lamp, " : ", a sun, ") << far;
+}
+
+/// Houses on a ground in UTM coordinates, as city models have them, seen from a hill: vertices and matrices of floats have steps of
+/// half a metre there.
+Case city() {
+    Case result = baked({433000.0, 5410000.0, 0.0}, false, 600.0);
+    const osg::Vec3d by(433000.0, 5410000.0, 0.0);
+    result.view = test::perspective(osg::Vec3d(-60.0, -90.0, 70.0) + by, by, 320, 240, 40.0, 10.0, 600.0);
+    return result;
+}
+
+std::vector<std::string> saidOf(const test::Scene& given, gnomon::ShadowTechnique* technique, const test::View& view) {
+    test::Scene scene = given;
+    const osg::ref_ptr<gnomon::ShadowTechnique> kept = technique;
+    scene.addShadow(technique);
+    test::render(scene.root, view);
+    return technique->diagnose();
+}
+
+TEST(Scales, AutoCastsRaysWhereVerticesLieTooFarFromTheirOriginForDepths) {
+    test::Scene scene = city().build(), rays = city().build();
+    const osg::ref_ptr<gnomon::AutoShadowTechnique> chooser = new gnomon::AutoShadowTechnique;
+    scene.addShadow(chooser);
+    rays.addShadow(traced());
+    EXPECT_EQ(test::render(scene.root, city().view).different(test::render(rays.root, city().view)), 0);
+    ASSERT_EQ(chooser->lastDecision().size(), 1u);
+    const std::string reason = chooser->lastDecision()[0].reason;
+    EXPECT_NE(reason.find("'ground' lie far from their origin, an offset for a transform"), reason.npos) << reason;
+}
+
+TEST(Scales, WhatTakesDepthsForPlacesSaysWhereVerticesLieTooFarFromTheirOrigin) {
+    const Case given = city();
+    const osg::ref_ptr<osg::Node> local = baked({0.0, 0.0, 0.0}, false, 600.0).build().content;
+    for (const Technique& technique : {Technique(map), Technique(volume), Technique(planar)}) {
+        const std::vector<std::string> said = saidOf(given.build(), technique(), given.view);
+        ASSERT_EQ(said.size(), 1u) << technique()->className();
+        EXPECT_NE(said[0].find("'ground' lie so far from their origin"), std::string::npos) << said[0];
+        test::Scene placed = test::scene(sun); // the cure
+        const osg::ref_ptr<osg::MatrixTransform> offset =
+            new osg::MatrixTransform(osg::Matrixd::translate(433000.0, 5410000.0, 0.0));
+        offset->addChild(local);
+        placed.content->addChild(offset);
+        EXPECT_EQ(saidOf(placed, technique(), given.view), std::vector<std::string>()) << technique()->className();
+    }
+    EXPECT_EQ(saidOf(given.build(), traced(), given.view), std::vector<std::string>());
+}
+
+/// Tiles of a terrain that begins at the eye: as far from their origin as they are from the eye.
+TEST(Scales, NothingIsSaidOfWhatIsAsFarAwayAsItsVerticesAreLarge) {
+    Case given = boxOnAQuad(100.0, 40.0, 0.5, 1e5);
+    for (double away = 50.0; away < 2e4; away *= 2.0)
+        given.casters.push_back(test::box({away, away, -1.0}, {1.9 * away, 1.9 * away, 0.01 * away}));
+    EXPECT_EQ(saidOf(given.build(), map(), given.view), std::vector<std::string>());
 }
 
 /// A transform that takes a box far away.

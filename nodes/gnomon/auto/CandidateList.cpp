@@ -141,6 +141,7 @@ public:
         for (AutoCandidate& candidate : _result.all) {
             if (candidate.obstacle.empty()) candidate.obstacle = whyOnlyMaps(candidate, _shadow.casters);
             if (candidate.obstacle.empty() && needsDepths(candidate.kind)) candidate.obstacle = onlyRays;
+            if (candidate.kind == Kind::Traced && !onlyRays.empty()) candidate.why = "rays alone tell, as " + onlyRays;
         }
         return _result;
     }

@@ -7,12 +7,15 @@
 #include <gnomon/compositor/DrawnLeaves.h>
 #include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/geometry/Across.h>
+#include <gnomon/geometry/DrawnError.h>
 #include <gnomon/geometry/ScreenBounds.h>
 #include <gnomon/geometry/ShadowReach.h>
 #include <gnomon/group/LitCauses.h>
 #include <gnomon/group/SceneFrame.h>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_access.hpp>
 #include <osg/CullFace>
 #include <osg/FrontFace>
 #include <osg/TriangleFunctor>
@@ -363,6 +366,30 @@ std::string coarselyPlaced(const LightInView& lit, const osg::Matrixd& projectio
         if (!piece->bounds.valid()) continue;
         const Corners corners = cornersOf(piece->bounds, clipFromGroup);
         if (nearestOf(corners) > coarse && isSeen(corners, pixels.size)) return nameOf(*piece->drawable);
+    }
+    return {};
+}
+
+/// Off by the offset that all of a leaf's vertices share: what is as wide as it is far from its origin is drawn well at the eye. The
+/// bound is some three times what is seen; from four pixels of it on shadows are wrong away from their edges, by map and by volume.
+/// Steps of depth tell what is far away, too, from what its vertices put there.
+std::string drawnOffItsPlace(const std::vector<const osgUtil::RenderLeaf*>& leaves, const osg::Matrixd& projection,
+                             const osg::Vec2d& pixels) {
+    constexpr double mostPixels = 4.0, mostSteps = 64.0;
+    const glm::dmat4 lens = toGlm(projection);
+    const double aPixel = coarseDepthFrom(projection, {pixels, 1.0}), // of them, a step's length is the distance
+        steps = std::ldexp(drawnError(lens, lens, pixels.x(), 1.0, 0.0).depth, depthBits);
+    for (const osgUtil::RenderLeaf* leaf : leaves) {
+        const osg::BoundingBox& box = leaf->_drawable->getBoundingBox();
+        if (!box.valid()) continue;
+        const glm::dmat4 eyeFromLocal = toGlm(modelviewOf(*leaf));
+        const glm::dvec3 low = toGlm(osg::Vec3d(box._min)), high = toGlm(osg::Vec3d(box._max));
+        const glm::dvec3 shared = glm::max(glm::max(low, -high), 0.0);
+        const double rounding =
+            std::ldexp(glm::dot(glm::abs(glm::dvec3(glm::row(eyeFromLocal, 2))), shared), -depthBits);
+        if (!(steps * rounding > mostPixels * aPixel)) continue;
+        if (steps * rounding > mostSteps * nearestOf(boxCorners(low, high, lens * eyeFromLocal)))
+            return nameOf(*leaf->_drawable);
     }
     return {};
 }

@@ -38,7 +38,7 @@ public:
     META_Object(gnomon, RecalledCauses)
 
     /// Kinds of causes: of one asker, a light has one of each.
-    enum class Kind { EnclosingNode, UnshadowedSurface, CoarseDepth };
+    enum class Kind { EnclosingNode, UnshadowedSurface, CoarseDepth, LargeCoordinates };
     /// What a cause depends on besides casters and light.
     struct State {
         std::uint64_t seen = 0;     ///< of what is in view.
@@ -112,5 +112,14 @@ bool reachesCoarseDepth(const LightInView& lit, const osg::Matrixd& projection, 
 /// Cost    a look at the casters' boxes. See RecalledCauses.
 /// @return the name of the first such caster that covers a pixel or more of the view; empty if there is none.
 std::string coarselyPlaced(const LightInView& lit, const osg::Matrixd& projection, const DepthPixels& pixels);
+
+/// Finds what OpenGL draws off its place, because its vertices lie far from their origin and it reckons in floats, for diagnose():
+/// a city in national coordinates. Places found by depths, and shadows, are off with it.
+///
+/// Cost    a look at the leaves' boxes. See RecalledCauses.
+/// @return the name of the first leaf that may lie more than four pixels, measured along the line of sight, off its place; empty if
+///         there is none.
+std::string drawnOffItsPlace(const std::vector<const osgUtil::RenderLeaf*>& leaves, const osg::Matrixd& projection,
+                             const osg::Vec2d& pixels);
 
 } // namespace gnomon

@@ -255,4 +255,27 @@ void reportCoarseDepth(const TechniqueInStage& asked, const ShadowLight& light, 
     if (!cause.empty()) entry.report(cause);
 }
 
+void reportLargeCoordinates(const TechniqueInStage& asked, const ShadowLight& light, const Casters& casters,
+                            const Receiving& receiving) {
+    const EnlistedTechnique& entry = asked.entry;
+    const osg::Vec2d pixels = viewOf(entry, *asked.stage.getViewport()).pixels;
+    const LightInView lit{*entry.group, light, casters, receiving.early, entry.eyeFromGroup};
+    Fingerprint seen;
+    seen.mix(entry.eyeFromGroup);
+    seen.mix(*entry.projection);
+    const RecalledCauses::State state{seen.value(), receiving.early.size() + receiving.late.size()};
+    const std::string cause =
+        keptBy<RecalledCauses>(asked.stage)
+            .causeOf(RecalledCauses::Kind::LargeCoordinates, entry.technique.get(), lit, state, [&] {
+                std::string name = drawnOffItsPlace(receiving.early, *entry.projection, pixels);
+                if (name.empty()) name = drawnOffItsPlace(receiving.late, *entry.projection, pixels);
+                if (name.empty()) return name;
+                return "the vertices of '" + name +
+                       "' lie so far from their origin that OpenGL draws them off their place, so shadows on it may be "
+                       "lost "
+                       "or false. Put the offset into a transform, or use traced.";
+            });
+    if (!cause.empty()) entry.report(cause);
+}
+
 } // namespace gnomon

@@ -49,4 +49,8 @@ void reportUnshadowed(const TechniqueInStage& asked, const std::vector<ShadowLig
 /// @param steps  see Mark::depthSteps, above 0.
 void reportCoarseDepth(const TechniqueInStage& asked, const ShadowLight& light, const Casters& casters, double steps);
 
+/// Says which receiver is drawn off its place, because its vertices lie far from their origin. For the same techniques.
+void reportLargeCoordinates(const TechniqueInStage& asked, const ShadowLight& light, const Casters& casters,
+                            const Receiving& receiving);
+
 } // namespace gnomon
