@@ -317,6 +317,17 @@ TEST(Scales, MapKeepsShadowsOfCentimetresOnALevelGroundOfKilometres) {
     }
 }
 
+/// Nothing between them but 2 cm: by what floats make of numbers as large as the ground, they would lie in it.
+TEST(Scales, SheetsOfCentimetresCastOnAGroundOfKilometres) {
+    const Technique automatic = [] { return new gnomon::AutoShadowTechnique; };
+    for (const double half : {10.0, 2e4}) {
+        Case given = boxOnAQuad(2.0 * half, 4.0, 0.1, 1e4);
+        given.casters = {test::quad({-0.06, -0.05, 0.02}, {0.09, 0.0, 0.0}, {0.0, 0.1, 0.0})};
+        given.view = test::perspective({-0.12, -0.2, 0.16}, {0.0, 0.0, 0.0}, 320, 240, 40.0, 0.005, 5.0);
+        for (const Technique& technique : {Technique(map), automatic}) EXPECT_EQ(wrong(given, technique, 2), 0) << half;
+    }
+}
+
 /// What lies under a ground puts that into the map. A low sun makes much of it if the ground is drawn off its place.
 TEST(Scales, MapDarkensNoVastGroundOverWhatIsBuriedInIt) {
     for (const double half : {1e4, 2e4, 29346.0, 4e4, 1e5})

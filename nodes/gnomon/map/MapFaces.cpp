@@ -57,7 +57,9 @@ glm::dvec4 beyond(const MapBox& flat, const glm::dvec4& light, const glm::dvec3&
     const glm::dvec3 size = flat.high - flat.low;
     const int axis = size.x == 0.0 ? 0 : size.y == 0.0 ? 1 : 2;
     const double level = flat.low[axis], side = light[axis] - light.w * level > 0.0 ? 1.0 : -1.0;
-    glm::dvec4 result(0.0, 0.0, 0.0, side * level - 1e-6 * glm::length(reach)); // what eye space makes of a place in it
+    const double rounding =
+        1e-7 * std::abs(level) + 1e-10 * glm::length(reach); // floats', and what eye space makes of a place
+    glm::dvec4 result(0.0, 0.0, 0.0, side * level - rounding);
     result[axis] = -side;
     return result;
 }
