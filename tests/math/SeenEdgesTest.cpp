@@ -187,6 +187,40 @@ TEST(SeenEdges, OfTrianglesAreSeenOnAnObjectThatShadowsItself) {
     EXPECT_GT(onStep, 10);
 }
 
+/// Four wide and h above the ground, seen through from above, as the bowl of a lamp is whose faces are culled.
+std::vector<Contact> contactsUnderAPlate(double h, bool oneSided, const glm::dmat4& map) {
+    const Objects objects = onAGround([h](Objects& all) { all.quad({-2, 2, h}, {4, 0, 0}, {0, -4, 0}); });
+    PlacedTriangles placed = objects.placed();
+    placed.oneSided = {false, oneSided};
+    SeenEdges seen(plan(), pixels, wholeScreen, sunInTheEast);
+    seen.addMesh(placed);
+    seen.addMap(map);
+    std::vector<Contact> contacts;
+    seen.edges(&contacts);
+    return contacts;
+}
+
+/// Under a sun at 45 degrees depth changes by a texel a texel, on the ground and on the plate: three quarters of that and a half are
+/// allowed, and the plate is its height times the root of two away.
+TEST(SeenEdges, ContactsAreUnderWhatNearlyTouchesAndTellTheTexelThatTheyNeed) {
+    const glm::dmat4 map = mapFromAbove * sunFrame(glm::dvec3(sunInTheEast)).lightFromScene;
+    const double h = 0.1, texel = h * std::sqrt(2.0) / 1.25, pixel = 10.0 / 200.0, mapSide = 20.0;
+    const std::vector<Contact> contacts = contactsUnderAPlate(h, true, map);
+    const double each = 200.0 * 200.0 / (SeenEdges::columns * SeenEdges::rows), shadow = 4.0 / pixel * 4.0 / pixel;
+    EXPECT_NEAR(double(contacts.size()) * each, shadow, 0.15 * shadow) << "all but a rim of two pixels";
+    EdgeWidths widths(plan(), pixels);
+    for (const Contact& contact : contacts) {
+        EXPECT_NEAR(contact.place.z, 0.0, 1e-9);
+        EXPECT_GE(offSquare(contact.place, {-h, 0.0}, 2.0), 1.5 * pixel - 1e-9);
+        EXPECT_NEAR(contact.texel, texel, 1e-6);
+        widths.addContact(contact, each, map);
+    }
+    EXPECT_NEAR(widths.leak(0.99 * mapSide / texel), std::sqrt(shadow), 0.1 * std::sqrt(shadow));
+    EXPECT_EQ(widths.leak(1.01 * mapSide / texel), 0.0);
+    EXPECT_TRUE(contactsUnderAPlate(h, false, map).empty()) << "the plate is seen, and it is lit";
+    EXPECT_TRUE(contactsUnderAPlate(1.0, true, map).empty()) << "twenty pixels above the ground";
+}
+
 // Rods of a fifth of a pixel to three. They are met as seldom as they are narrow, and each has two outlines, as those of eight
 // pixels have. Some of them are taken as chance.
 TEST(SeenEdges, CountNarrowShadowsByTheirLengthAndTellTheirWidth) {

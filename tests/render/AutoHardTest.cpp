@@ -3,6 +3,7 @@
 #include "AutoTrial.h"
 
 #include <gnomon/TracedShadowTechnique.h>
+#include <support/Oracle.h>
 
 #include <gtest/gtest.h>
 #include <osg/MatrixTransform>
@@ -105,6 +106,58 @@ TEST(AutoThin, WhatIsExactToASampleIsNeverLessAccurateThanAMapThatLosesMore) {
         if (each.spec.rfind("map:size=512", 0) == 0 && each.spec.find("edges=smooth") == std::string::npos)
             EXPECT_GT(each.error, volume) << each.spec;
     EXPECT_TRUE(trial.decision().keepsBudget) << trial.decision().text();
+}
+
+/// A shallow bowl on the ground, all its triangles turned down and out.
+Mesh bowl(double radius, double curvature) {
+    constexpr int rings = 24, around = 96;
+    const auto at = [&](int ring, int step) {
+        const double r = radius * ring / rings, turn = 2.0 * osg::PI * step / around;
+        return glm::dvec3(r * std::cos(turn), r * std::sin(turn), r * r / (2.0 * curvature));
+    };
+    Mesh result;
+    for (int ring = 0; ring < rings; ++ring)
+        for (int step = 0; step < around; ++step) {
+            const glm::dvec3 a = at(ring, step), b = at(ring, step + 1), c = at(ring + 1, step),
+                             d = at(ring + 1, step + 1);
+            result.insert(result.end(), {a, b, d, a, d, c});
+        }
+    return result;
+}
+
+// One looks through it from above, for its back is culled, at ground that it nearly touches: a map lets light through there.
+TEST(AutoThin, BowlsOnTheirGroundLetNoLightThrough) {
+    const Mesh shell = bowl(2.0, 4.0);
+    const osg::Vec4d sun(0.5, -0.6, 0.7, 0.0);
+    const View view = perspective({-4.0, -7.0, 6.0}, {0.0, 0.0, 0.0}, 320, 240);
+    const auto built = [&] {
+        Scene scene = test::scene(sun);
+        scene.content->addChild(node(square(8.0), "ground"));
+        scene.content->addChild(node(shell));
+        scene.content->getChild(1)->getOrCreateStateSet()->setMode(GL_CULL_FACE, osg::StateAttribute::ON);
+        return scene;
+    };
+    Scene scene = built(), mapped = built(), dark = built();
+    const osg::ref_ptr<AutoShadowTechnique> technique = new AutoShadowTechnique;
+    scene.addShadow(technique);
+    mapped.addShadow("map:size=512,filter=nearest,cascades=1");
+    dark.takeLightAway();
+    const Picture lit = render(built().root, view), unlit = render(dark.root, view);
+    const Mask mask = castRays(square(8.0), {}, sun, view, {shell});
+    const std::uint32_t ground = lit.at(1, 1); // not the outer side of the bowl
+    const auto leaked = [&](const Picture& drawn) {
+        int count = 0;
+        for (int y = 0; y < mask.height; ++y)
+            for (int x = 0; x < mask.width; ++x)
+                if (mask.at(x, y) == Seen::ShadowedReceiver && !mask.atEdge(x, y, 2) && lit.at(x, y) == ground)
+                    count += drawn.at(x, y) != unlit.at(x, y);
+        return count;
+    };
+    EXPECT_LE(leaked(render(scene.root, view)), 8) << "within a pixel of where they touch";
+    EXPECT_GT(leaked(render(mapped.root, view)), 200);
+    const std::vector<gnomon::ShadowDecision> decisions = technique->lastDecision();
+    for (const gnomon::ShadowCandidate& each : decisions.at(0).candidates)
+        if (each.spec == "map:size=512,filter=nearest,cascades=1") EXPECT_GT(each.error, 10.0) << "across the hole";
 }
 
 // A box of 4 cm seen from 25, as a car on a terrain of 50 km. Its shadow by hand is 1,494 pixels of 320 × 240.

@@ -56,8 +56,14 @@ std::vector<PlacedTriangles> trianglesOf(const CasterLayers& casters) {
         if (mesh.empty()) continue;
         PlacedTriangles triangles{positionsOf(mesh),          mesh.vertices->size(), &mesh.triangles->front(),
                                   mesh.triangles->size() / 3, placed.sceneFromMesh,  {}};
-        for (const CasterExtraction::Drawn& drawn : mesh.drawn) triangles.parts.push_back(drawn.first / 3);
-        if (triangles.parts.empty() || triangles.parts.front() > 0) triangles.parts.insert(triangles.parts.begin(), 0);
+        for (const CasterExtraction::Drawn& drawn : mesh.drawn) {
+            triangles.parts.push_back(drawn.first / 3);
+            triangles.oneSided.push_back((placed.isBody ? placed.hiding : drawn.hiding) == Hiding::Fronts);
+        }
+        if (triangles.parts.empty() || triangles.parts.front() > 0) {
+            triangles.parts.insert(triangles.parts.begin(), 0);
+            triangles.oneSided.insert(triangles.oneSided.begin(), placed.hiding == Hiding::Fronts);
+        }
         result.push_back(triangles);
     }
     return result;
@@ -164,7 +170,9 @@ MapEdges::MapEdges(const ShadowInView& shadow, const MapCasters& boxes, const Ma
         for (const MapLayer* layer : {boxes.still.get(), boxes.moving.get()})
             for (const auto* some : {&layer->bodies, &layer->flats})
                 for (const MapPart& box : *some) seen.addCaster({box.low, box.high});
-    _places = seen.edges();
+    const glm::dvec2 size = 0.5 * (forecast.bounds->high - forecast.bounds->low) * _pixels;
+    _cell = size.x * size.y / (SeenEdges::columns * SeenEdges::rows);
+    _places = seen.edges(&_contacts);
     if (!_places.empty()) return;
     if (!byTriangles) seen = seenOf(SeenEdges::Relief::Whole); // a terrain shadows itself, who knows where
     _places = seen.facing();
@@ -172,11 +180,14 @@ MapEdges::MapEdges(const ShadowInView& shadow, const MapCasters& boxes, const Ma
 
 EdgeWidths MapEdges::in(const MapForecast& forecast) const {
     EdgeWidths widths(_clipFromScene, _pixels);
-    for (const SeenPlace& seen : _places) {
+    const auto inMapOf = [&](const glm::dvec3& place, const auto& add) {
         const auto map = std::find_if(forecast.each.begin(), forecast.each.end(),
-                                      [&](const MapForecast::Map& each) { return holds(each, seen.place); });
-        if (map != forecast.each.end()) widths.add(seen, map->mapFromScene);
-    }
+                                      [&](const MapForecast::Map& each) { return holds(each, place); });
+        if (map != forecast.each.end()) add(map->mapFromScene);
+    };
+    for (const SeenPlace& seen : _places) inMapOf(seen.place, [&](const glm::dmat4& map) { widths.add(seen, map); });
+    for (const Contact& contact : _contacts)
+        inMapOf(contact.place, [&](const glm::dmat4& map) { widths.addContact(contact, _cell, map); });
     return widths;
 }
 

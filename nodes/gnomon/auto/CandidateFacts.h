@@ -70,6 +70,8 @@ private:
     glm::dmat4 _clipFromScene;
     glm::dvec2 _pixels;
     std::vector<SeenPlace> _places;
+    std::vector<Contact> _contacts;
+    double _cell = 0.0; ///< pixels that a contact stands for.
 };
 
 /// A group's casters in two parts: simple ones, for volumes, and those that a map draws better. These are dense, are cut out

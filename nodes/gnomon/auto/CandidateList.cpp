@@ -135,7 +135,7 @@ public:
         addTerrain();
         addMaps(edges);
         addVolume();
-        addMixed();
+        addMixed(edges);
         addTraced();
         const std::string onlyRays = whyOnlyRays(_shadow);
         for (AutoCandidate& candidate : _result.all) {
@@ -206,12 +206,12 @@ private:
         const double pieces = double(_shadow.casters.list.size());
         for (const int size : sizes) {
             for (const MapQuality& quality : qualities)
-                _result.all.push_back(mapOf({_one, *_widths, _pixels, _casters, pieces}, 1, size, quality));
+                _result.all.push_back(mapOf({_one, *_widths, *_widths, _pixels, _casters, pieces}, 1, size, quality));
             const MapForecast several = _shadow.towards.w == 0.0 ? forecast(*_boxes, 0, size) : _one;
             if (several.maps == _one.maps) continue;
             const EdgeWidths each = edges.in(several);
             for (const MapQuality& quality : qualities)
-                _result.all.push_back(mapOf({several, each, _pixels, _casters, pieces}, 0, size, quality));
+                _result.all.push_back(mapOf({several, each, each, _pixels, _casters, pieces}, 0, size, quality));
         }
     }
 
@@ -219,8 +219,9 @@ private:
     struct Mapped {
         const MapForecast& forecast;
         const EdgeWidths& edges;
-        double pixels;  ///< where its shadow can be.
-        double casters; ///< triangles.
+        const EdgeWidths& contacts; ///< of all casters: what is none of these is but a box to their edges.
+        double pixels;              ///< where its shadow can be.
+        double casters;             ///< triangles.
         double pieces;
     };
     AutoCandidate mapOf(const Mapped& mapped, int cascades, int size, const MapQuality& quality) const {
@@ -237,6 +238,7 @@ private:
         map.error = edges.empty() ? mapError(quality.edge, forecast.texels / texels)
                                   : edges.usual(usualShare,
                                                 [&](const auto& edge) { return mapError(edge, quality.edge, texels); });
+        map.error = std::max(map.error, mapped.contacts.leak(texels));
         map.why = "its texels are as large as " + roundedText(forecast.texels / texels) + " px";
         const double passes = quality.edges == Map::SMOOTH && !blends() ? 2.0 : 1.0;
         map.still = _compose;
@@ -269,7 +271,7 @@ private:
     }
 
     /// A map that is fitted to some of the casters has smaller texels; and it need not draw the others.
-    void addMixed() {
+    void addMixed(const MapEdges& ofAll) {
         const CasterSplit& split = _known.splits.of(_shadow.casters);
         if (!split.isDivided()) return;
         const osg::ref_ptr<const Casters> dense = split.dense(_shadow.casters);
@@ -278,8 +280,12 @@ private:
         const osg::ref_ptr<const MapCasters> boxes = partsOf(*dense);
         const MapForecast one = forecast(*boxes, 1, sizes[0]);
         if (one.maps == 0) return;
-        const EdgeWidths edges = MapEdges(_shadow, *boxes, one).in(one);
-        const Mapped mapped{one, edges, pixelsOf(_shadow.view, *one.bounds), double(layers.triangles()),
+        const EdgeWidths edges = MapEdges(_shadow, *boxes, one).in(one), all = ofAll.in(one);
+        const Mapped mapped{one,
+                            edges,
+                            all,
+                            pixelsOf(_shadow.view, *one.bounds),
+                            double(layers.triangles()),
                             double(dense->list.size())};
         AutoCandidate volume;
         const VolumeForecast others =

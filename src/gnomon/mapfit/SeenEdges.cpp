@@ -47,6 +47,18 @@ double sampledBy(double rise) {
     return std::min(bent * sampledEdgeOf(rise), 0.5);
 }
 
+/// Lengths on a map's sides for one of the scene, across the way to the light.
+double mapAUnit(const glm::dmat4& mapFromScene, const glm::dvec3& place, const glm::dvec3& way) {
+    const auto [u, v] = across(glm::normalize(way));
+    return std::sqrt(std::abs(glm::determinant(slopeOf(mapFromScene, mapFromScene * glm::dvec4(place, 1.0), u, v))));
+}
+
+/// How depth changes along a map's sides on a plane.
+glm::dvec2 slopeIn(const glm::dmat4& sceneFromMap, const glm::dvec3& normal, const glm::dvec3& place) {
+    const glm::dvec4 plane = glm::transpose(sceneFromMap) * glm::dvec4(normal, -glm::dot(normal, place));
+    return glm::abs(glm::dvec2(plane) / plane.z);
+}
+
 /// How far off what is so wide is among places so far apart: it is lost, or drawn as wide as they are apart.
 double lostWidth(double across, double apart) { return across < apart ? apart : 0.0; }
 
@@ -135,7 +147,7 @@ void RayBins::meet(const PlacedBox& box, const Hit& hit) const {
         const bool upwards = way[axis] < 0.0;
         glm::dvec3 normal(0.0);
         normal[axis] = upwards ? 1.0 : -1.0;
-        hit({number, std::size_t(2 * axis + (upwards ? 1 : 0)), outside ? in : out, back * normal, !outside});
+        hit({number, std::size_t(2 * axis + (upwards ? 1 : 0)), outside ? in : out, back * normal, !outside, out});
     });
 }
 
@@ -196,8 +208,10 @@ void SeenEdges::look(Cells& cells) const {
     }
     for (const PlacedTriangles& mesh : _meshes) {
         bins.meet(mesh, [&](const RayBins::Met& met) {
-            const auto part = std::upper_bound(mesh.parts.begin(), mesh.parts.end(), met.side);
-            take(met, first + int(part - mesh.parts.begin()) - 1);
+            const auto part = std::upper_bound(mesh.parts.begin(), mesh.parts.end(), met.side) - mesh.parts.begin() - 1;
+            const bool back = glm::dot(met.normal, cells[met.ray].way) > 0.0;
+            if (back && !mesh.oneSided.empty() && mesh.oneSided[std::size_t(part)]) return;
+            take(met, first + int(part));
         });
         first += int(mesh.parts.size());
     }
@@ -227,9 +241,24 @@ void SeenEdges::darken(Cells& cells) const {
             rays.push_back({place, glm::dvec3(_light) - _light.w * place, in});
         }
         const RayBins bins(mapFromScene, rays);
+        const glm::dmat4 sceneFromMap = glm::inverse(mapFromScene);
+        const auto depthAt = [&](const glm::dvec3& place) {
+            const glm::dvec4 at = mapFromScene * glm::dvec4(place, 1.0);
+            return at.z / at.w;
+        };
         const auto take = [&](const RayBins::Met& met, double least) {
+            const RayBins::Ray& ray = rays[met.ray];
             const bool before = _light.w == 0.0 || met.reach < 1.0;
-            if (before && met.reach * glm::length(rays[met.ray].way) > least) cells[met.ray].dark = true;
+            if (!(before && met.reach * glm::length(ray.way) > least)) return;
+            Cell& cell = cells[met.ray];
+            cell.dark = true;
+            // As map.frag and DepthMap allow for the slopes of both; what is farthest from the surface is in the map.
+            const glm::dvec3 blocker = ray.from + std::max(met.reach, met.through) * ray.way;
+            const glm::dvec2 own = slopeIn(sceneFromMap, cell.normal, ray.from),
+                             other = slopeIn(sceneFromMap, met.normal, blocker);
+            const double allowed = 0.75 * (own.x + own.y) + 0.5 * std::max(other.x, other.y),
+                         texel = std::abs(depthAt(ray.from) - depthAt(blocker)) / allowed;
+            cell.texel = std::max(cell.texel, texel / mapAUnit(mapFromScene, ray.from, ray.way));
         };
         for (const PlacedBox& box : _casters) {
             const double least = beside * glm::distance(box.low, box.high);
@@ -327,10 +356,46 @@ bool SeenEdges::isEdge(const Cell& one, const Cell& other) const {
     return glm::distance(here, there) <= step(one, other) + step(other, one);
 }
 
-std::vector<SeenPlace> SeenEdges::edges() const {
+/// Where a shadow begins at what casts it, it is lost for a texel or so, as everybody expects; so pixels about a place must be
+/// as dark, and as near to what casts. Texels of many pixels are no concern: edges tell of them.
+std::vector<Contact> SeenEdges::contactsOf(const Cells& cells) const {
+    constexpr double beside = 1.5, mostPixels = 8.0;
+    Cells about;
+    std::vector<std::size_t> of;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        const Cell& cell = cells[i];
+        if (!cell.dark) continue;
+        const Cell next = cellAt(cell.at + glm::dvec2(_pixel.x, 0.0));
+        const double pixel = glm::distance(cell.place().place, next.from + cell.reach * next.way);
+        if (!(cell.texel < mostPixels * pixel)) continue;
+        of.push_back(i);
+        for (const glm::dvec2& side :
+             {glm::dvec2(1.0, 0.0), glm::dvec2(-1.0, 0.0), glm::dvec2(0.0, 1.0), glm::dvec2(0.0, -1.0)})
+            about.push_back(cellAt(cell.at + beside * side * _pixel));
+    }
+    if (of.empty()) return {};
+    look(about);
+    darken(about);
+    std::vector<Contact> result;
+    for (std::size_t i = 0; i < of.size(); ++i) {
+        const Cell& cell = cells[of[i]];
+        const glm::dvec3 place = cell.place().place;
+        double texel = cell.texel;
+        bool within = true;
+        for (std::size_t side = 4 * i; side < 4 * i + 4; ++side) {
+            within = within && about[side].dark && about[side].side == cell.side;
+            texel = std::max(texel, about[side].texel);
+        }
+        if (within) result.push_back({place, glm::dvec3(_light) - _light.w * place, texel});
+    }
+    return result;
+}
+
+std::vector<SeenPlace> SeenEdges::edges(std::vector<Contact>* contacts) const {
     Cells cells = grid();
     look(cells);
     darken(cells);
+    if (contacts) *contacts = contactsOf(cells);
     narrow(cells);
     std::vector<SeenPlace> result;
     const auto add = [&](int column, int row, int right, int up) {
@@ -413,6 +478,16 @@ void EdgeWidths::add(const SeenPlace& place, const glm::dmat4& mapFromScene) {
         const glm::dvec2 way = inPicture * glm::dvec2(std::cos(angle), std::sin(angle));
         add(way, glm::length(way) / directions);
     }
+}
+
+void EdgeWidths::addContact(const Contact& contact, double pixels, const glm::dmat4& mapFromScene) {
+    _contacts.emplace(1.0 / (contact.texel * mapAUnit(mapFromScene, contact.place, contact.way)), pixels);
+}
+
+double EdgeWidths::leak(double texels) const {
+    double pixels = 0.0;
+    for (auto each = _contacts.upper_bound(texels); each != _contacts.end(); ++each) pixels += each->second;
+    return std::sqrt(pixels);
 }
 
 void EdgeWidths::addEdge(const Edge& edge) {

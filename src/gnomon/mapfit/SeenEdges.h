@@ -26,6 +26,7 @@ struct PlacedTriangles {
     std::size_t count;       ///< of the triangles.
     glm::dmat4 sceneFromMesh;
     std::vector<std::size_t> parts; ///< the first triangle of each object, ascending.
+    std::vector<bool> oneSided{};   ///< of each object: the back of its triangles is not drawn; empty: of none.
 };
 
 /// Some thousand rays that are points in a picture, so that a triangle is tested only with those that may meet it. It is for
@@ -46,10 +47,11 @@ public:
     /// A ray on a surface.
     struct Met {
         std::size_t ray;
-        std::size_t side;    ///< number of the triangle; of a box twice the axis, and 1 for its far end.
-        double reach;        ///< in lengths of the ray's way; below 0 behind its start.
-        glm::dvec3 normal;   ///< of any length, to either side.
-        bool inside = false; ///< of a box: the ray starts in it.
+        std::size_t side;     ///< number of the triangle; of a box twice the axis, and 1 for its far end.
+        double reach;         ///< in lengths of the ray's way; below 0 behind its start.
+        glm::dvec3 normal;    ///< of any length, to either side.
+        bool inside = false;  ///< of a box: the ray starts in it.
+        double through = 0.0; ///< of a box: the reach of its far side.
     };
     using Hit = std::function<void(const Met&)>;
     /// Calls `hit` for each ray and each triangle that it meets.
@@ -77,6 +79,13 @@ struct SeenPlace {
     double across = std::numeric_limits<double>::infinity();
     double share = 1.0;  ///< of the outline that others stand for.
     bool folded = false; ///< The surface bends between the place and one beside it.
+};
+
+/// A place of a shadow, with shadow of the same surface a pixel and a half about it, that nearly touches what casts it: under a bowl
+/// on its table, say. A map compares by its texels, and lets light through there where they are larger.
+struct Contact {
+    glm::dvec3 place, way; ///< in the scene; to the light, of any length.
+    double texel = 0.0;    ///< side of the largest that keeps the shadow, scene's unit.
 };
 
 /// Where edges of shadows are seen: at the cells of a grid over the picture beside which the same surface is lit on one hand
@@ -108,12 +117,14 @@ public:
     void addMap(const glm::dmat4& mapFromScene) { _maps.push_back(mapFromScene); }
 
     /// The places on either side of each edge.
-    std::vector<SeenPlace> edges() const;
+    /// @param contacts  where not null, places at cells of the grid where light may leak.
+    std::vector<SeenPlace> edges(std::vector<Contact>* contacts = nullptr) const;
     /// All places that face the light.
     std::vector<SeenPlace> facing() const;
 
+    static constexpr int columns = 64, rows = 48; ///< of the grid.
+
 private:
-    static constexpr int columns = 64, rows = 48;
     struct Cell {
         glm::dvec2 at;                                          ///< in the grid, 0 to 1.
         glm::dvec3 from, way;                                   ///< of the line of sight.
@@ -123,6 +134,7 @@ private:
         bool dark = false;
         bool left = false; ///< out: a pixel beside it shows something else.
         double across = std::numeric_limits<double>::infinity(), share = 1.0; ///< see SeenPlace.
+        double texel = 0.0;                                                   ///< see Contact; of what is dark.
 
         SeenPlace place() const { return {from + reach * way, normal}; }
         double least() const { return 1e-6 * reach * glm::length(way); } ///< what is as near is the surface itself.
@@ -134,6 +146,7 @@ private:
     void darken(Cells& cells) const;
     void narrow(Cells& cells) const;
     void weighNarrow(Cells& cells) const;
+    std::vector<Contact> contactsOf(const Cells& cells) const;
     static double reachOf(const Cell& cell, const Cell& plane);
     bool faces(const Cell& cell) const;
     bool bends(const Cell& one, const Cell& other) const;
@@ -162,6 +175,11 @@ public:
 
     bool empty() const { return _edges.empty(); }
 
+    /// A place that stands for so many pixels of a shadow, looked up in a map.
+    void addContact(const Contact& contact, double pixels, const glm::dmat4& mapFromScene);
+    /// Pixels across, if they were one, of the places that let light through in a map of so many texels on its side.
+    double leak(double texels) const;
+
     /// Edges that are much alike.
     struct Edge {
         double width = 0.0;   ///< pixels for one of the map's x/w and y/w.
@@ -185,6 +203,7 @@ private:
     glm::dmat4 _clipFromScene, _sceneFromClip;
     glm::dvec2 _pixels;
     std::map<std::array<int, 5>, Edge> _edges; ///< by what they are like.
+    std::multimap<double, double> _contacts;   ///< pixels that leak in a map of fewer texels on its side.
 };
 
 /// How texels are compared, as ShadowMapOptions::Filter and its edges have it.
