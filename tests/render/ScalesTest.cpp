@@ -297,6 +297,23 @@ TEST(Scales, VolumeSaysWhereCastersAreTooFarApart) {
     }
 }
 
+/// A box, and another far away in the same drawable, whose vertices are rounded as its own.
+TEST(Scales, MapSaysWhereACasterIsSoLargeThatOthersLoseTheirShadow) {
+    for (const double away : {1e4, 1e6}) {
+        Case given = withStray(0.0, 1.0);
+        const Mesh far = test::box({away, away, 0.0}, {away + 2.0, away + 2.0, 2.0});
+        given.casters = {test::joined({given.casters[0], far})};
+        const std::vector<std::string> said = saidOf(given.build(), map(), given.view);
+        if (away < 1e5) {
+            EXPECT_EQ(said, std::vector<std::string>());
+            EXPECT_EQ(wrong(given, map, 2), 0);
+        } else {
+            ASSERT_EQ(said.size(), 1u);
+            EXPECT_NE(said[0].find("one of the casters is so large"), std::string::npos) << said[0];
+        }
+    }
+}
+
 /// A sky, which casts nothing and receives as all that is seen does, takes no depth from the map of what is before it.
 TEST(Scales, MapKeepsItsShadowsUnderASkyHoweverVast) {
     for (const double radius : {1e4, 1e5, 1e6, 1e7}) {

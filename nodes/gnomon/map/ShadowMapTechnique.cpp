@@ -33,6 +33,17 @@ Kind known(Kind value, Kind last, Kind byDefault) {
 
 using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
 
+constexpr double mostOff = 16.0; // texels: things of some pixels have no shadow where depths are off by more
+constexpr const char* coarse =
+    "one of the casters is so large that floats place depths in the map only to more than 16 "
+    "texels, so what is nearer to its receiver casts no shadow. Divide that caster, leave it out "
+    "of the casters, or use traced.";
+
+bool isCoarse(const MapPicture& picture) {
+    return std::any_of(picture.tiles.begin(), picture.tiles.end(),
+                       [](const MapPicture::Tile& tile) { return tile.errors.texelsOff() > mostOff; });
+}
+
 constexpr std::size_t mostCasters = 8; // groups above one node, and views of different levels of detail
 
 } // namespace
@@ -149,12 +160,13 @@ std::vector<osg::ref_ptr<Mark>> ShadowMapTechnique::prepare(const ViewFrame& vie
     const std::optional<SpotCone> cone = spotOf(light);
     const std::optional<MapsInView> maps =
         _maps->update(view, light.number, {*usable, cone, drawn, MapSettings(_options)});
+    if (maps && isCoarse(*maps->picture)) report(view.frameNumber, coarse);
     if (_options.programUnit >= 0)
         return {programMaps(_options.programUnit, maps, glm::inverse(scene.eyeFromScene(view)))};
     LookupPlaces places{toGlm(view.projection) * scene.eyeFromScene(view),
-                      std::nullopt,
-                      {view.pushedBack.x(), view.pushedBack.y()},
-                      drawn->layers.rounding};
+                        std::nullopt,
+                        {view.pushedBack.x(), view.pushedBack.y()},
+                        drawn->layers.rounding};
     if (cone) places.coneFromScene = coneFromScene(glm::dvec3(*usable), *cone);
     std::vector<osg::ref_ptr<Mark>> marks;
     if (cone && view.group->getComposite() == ShadowCasterGroup::RELIGHT)

@@ -312,6 +312,11 @@ MapSpread mapSpread(const LightFrame& frame, const MapFit& fit, double lightRadi
     return spread;
 }
 
+double MapErrors::texelsOff() const {
+    const auto off = [](const MapError& error) { return edgeOn * error.depth / error.steepest; };
+    return std::min(off(nearest), off(farthest));
+}
+
 MapErrors mapErrors(const LightFrame& frame, const MapFit& fit, const glm::dvec3& reach, int texels) {
     const auto rounding = [&](int axis) {
         const glm::dvec4 row = glm::abs(glm::row(fit.mapFromScene, axis));

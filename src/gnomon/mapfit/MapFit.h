@@ -150,6 +150,9 @@ struct MapError {
 /// At a map's nearest and farthest depth, with linear change between.
 struct MapErrors {
     MapError nearest, farthest;
+
+    /// How many texels long, along the light, the depth may be off where that is the least.
+    double texelsOff() const;
 };
 
 /// @param reach  half sides of the casters' bounds about the origin of the scene.
