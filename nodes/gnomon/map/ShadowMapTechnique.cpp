@@ -4,7 +4,9 @@
 #include <gnomon/ShadowMapTechnique.h>
 #include <gnomon/base/RecentCache.h>
 #include <gnomon/casters/Casters.h>
+#include <gnomon/geometry/DrawnError.h>
 #include <gnomon/geometry/ScreenBounds.h>
+#include <gnomon/group/LitCauses.h>
 #include <gnomon/group/PerView.h>
 #include <gnomon/group/SceneFrame.h>
 #include <gnomon/map/LightShadowMaps.h>
@@ -15,6 +17,7 @@
 #include <glm/matrix.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -33,15 +36,22 @@ Kind known(Kind value, Kind last, Kind byDefault) {
 
 using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
 
-constexpr double mostOff = 16.0; // texels: things of some pixels have no shadow where depths are off by more
+constexpr double mostOff = 16.0;      // texels: things of some pixels have no shadow where depths are off by more
+constexpr double mostDrawnOff = 32.0; // pixels along the line of sight: what is seen is compared as so much nearer
 constexpr const char* coarse =
-    "one of the casters is so large that floats place depths in the map only to more than 16 "
-    "texels, so what is nearer to its receiver casts no shadow. Divide that caster, leave it out "
-    "of the casters, or use traced.";
+    "one of the casters is so large that floats place depths only to more than 16 texels of the map, or 32 pixels, so "
+    "what is nearer to its receiver casts no shadow. Divide that caster, leave it out of the casters, or use traced.";
 
 bool isCoarse(const MapPicture& picture) {
     return std::any_of(picture.tiles.begin(), picture.tiles.end(),
                        [](const MapPicture::Tile& tile) { return tile.errors.texelsOff() > mostOff; });
+}
+
+/// True of casters so large that their own vertices are too coarse; drawnOffItsPlace() tells of those that lie far from their origin.
+bool areDrawnOff(const CasterLayers& layers, const ViewFrame& view, const glm::dmat4& clipFromScene) {
+    const double rounding = std::min(layers.rounding, std::ldexp(layers.widest, -24));
+    const DrawnError off = drawnError(clipFromScene, toGlm(view.projection), view.pixels.x(), rounding, 0.0);
+    return std::ldexp(off.depth, 24) > mostDrawnOff * coarseDepthFrom(view.projection, {view.pixels, 1.0});
 }
 
 constexpr std::size_t mostCasters = 8; // groups above one node, and views of different levels of detail
@@ -160,7 +170,9 @@ std::vector<osg::ref_ptr<Mark>> ShadowMapTechnique::prepare(const ViewFrame& vie
     const std::optional<SpotCone> cone = spotOf(light);
     const std::optional<MapsInView> maps =
         _maps->update(view, light.number, {*usable, cone, drawn, MapSettings(_options)});
-    if (maps && isCoarse(*maps->picture)) report(view.frameNumber, coarse);
+    if ((maps && isCoarse(*maps->picture)) ||
+        areDrawnOff(drawn->layers, view, toGlm(view.projection) * scene.eyeFromScene(view)))
+        report(view.frameNumber, coarse);
     if (_options.programUnit >= 0)
         return {programMaps(_options.programUnit, maps, glm::inverse(scene.eyeFromScene(view)))};
     LookupPlaces places{toGlm(view.projection) * scene.eyeFromScene(view),
