@@ -146,8 +146,8 @@ TEST(CoarseDepth, DoesNotMatterWhereTheCasterIsNotSeen) {
 TEST(CoarseDepth, DoesNotMatterForACasterBeyondTheFarPlane) {
     Trial trial(new gnomon::ShadowMapTechnique, box({-452.0, 323.0, 404.0}, {-448.0, 327.0, 405.0}));
     trial.scene.light->getLight()->setPosition({-0.46f, -0.6f, 0.5f, 0.0f});
-    trial.scene.content->addChild(node(box({300.0, 1130.0, 0.0}, {340.0, 1170.0, 60.0}), "tower"));
+    trial.scene.content->addChild(placed(box({300.0, 1130.0, 0.0}, {340.0, 1170.0, 60.0})));
     EXPECT_EQ(trial.seen(fromAfar(0.001)), nothing);
-    trial.scene.content->addChild(node(tower, "tower"));
+    trial.scene.content->addChild(placed(tower));
     EXPECT_EQ(trial.seen(fromAfar(0.001)), tooCoarse(trial)) << "one in view";
 }
