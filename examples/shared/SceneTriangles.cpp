@@ -162,8 +162,17 @@ std::optional<Cutout> Cutout::blended(const osg::NodePath& path, const osg::Draw
     if (!isOn(state->getModeMap(), GL_BLEND)) return std::nullopt;
     const osg::AlphaFunc* test = alphaTest(*state);
     if (test && test->getFunction() != osg::AlphaFunc::ALWAYS) return std::nullopt;
-    static const osg::ref_ptr<osg::AlphaFunc> half = new osg::AlphaFunc(osg::AlphaFunc::GEQUAL, 0.5f);
-    return Cutout(*half, texture(*state), baseAlphaOf(*state, drawable));
+    static const osg::ref_ptr<osg::AlphaFunc> half = new osg::AlphaFunc(osg::AlphaFunc::GEQUAL, 0.5f),
+                                              whole = new osg::AlphaFunc(osg::AlphaFunc::GEQUAL, 1.0f);
+    const Cutout cut(*half, texture(*state), baseAlphaOf(*state, drawable));
+    return cut.isEven() ? Cutout(*whole, cut._texture, cut._alpha) : cut;
+}
+
+bool Cutout::isEven() const {
+    for (int row = 0; _image && row < _image->t(); ++row)
+        for (int column = 0; column < _image->s(); ++column)
+            if (alphaOf(column, row) != alphaOf(0, 0)) return false;
+    return true;
 }
 
 bool Cutout::isUnfilled(const osg::NodePath& path, const osg::Drawable& drawable) {

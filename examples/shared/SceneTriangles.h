@@ -14,7 +14,8 @@
 
 namespace gnomon::examples {
 
-/// What an alpha test leaves of a textured surface; or, asked for, what blending leaves: all of an alpha of one half and more.
+/// What an alpha test leaves of a textured surface; or, asked for, what blending leaves: all of an alpha of one half and more,
+/// but of a surface with one alpha all over, as glass has, nothing if that is below one.
 ///
 /// Limits  alpha is that of the 2D texture on unit 0 at full size, its image still in memory, and of what blends that of its
 ///         material or one colour, too; that of vertices counts as 1, texture matrices and combiners as none.
@@ -33,6 +34,7 @@ public:
 
 private:
     Cutout(const osg::AlphaFunc& test, const osg::Texture2D* texture, double alpha = 1.0);
+    bool isEven() const; ///< one alpha all over.
     double alphaOf(int column, int row) const;
     double alphaAt(const osg::Vec2d& texcoord) const;
 
@@ -67,7 +69,7 @@ struct SceneTriangles {
 /// What is in a scene besides what hides all behind it.
 enum class Clear {
     HIDES, ///< what blends counts as solid.
-    PASSES ///< texels that blend with an alpha below one half are not there.
+    PASSES ///< texels that blend with an alpha below one half are not there, nor is glass.
 };
 
 /// What is switched on is taken, of an LOD its nearest range; other cameras' subgraphs, projections, text, points and

@@ -104,10 +104,12 @@ public:
     /// True if setCasters() has named a node that has been deleted since.
     bool areCastersGone() const { return _casters.isGone(*this); }
 
-    /// Alpha from which on a blending drawable casts, 0 … 1. Default 0.5: what hides less than half casts nothing. 0: all cast.
-    /// It is that of textures, times that of osg::Material or of colours. A program's alpha counts in transparent bins alone.
-    /// ShadowMapTechnique leaves out the clear parts, the others triangles that are clear all over.
-    /// Clamped. NaN is refused with a warning.
+    /// Alpha from which on a blending drawable casts, 0 … 1. 0: all cast.
+    /// Default -1, as any number below 0: a drawable with one alpha below 1 all over, as glass and water have, lets light through
+    /// and casts nothing. Where textures or vertices give several alphas, parts of 0.5 or more cast.
+    /// Alpha is that of textures, times that of osg::Material or of colours. A program's alpha counts in transparent bins alone,
+    /// from 0.5 on. ShadowMapTechnique leaves out the clear parts, the others triangles that are clear all over.
+    /// More than 1 is 1. NaN is refused with a warning.
     void setOpaqueFrom(float alpha);
     /// See setOpaqueFrom().
     float getOpaqueFrom() const { return _opaqueFrom; }
@@ -179,7 +181,7 @@ protected:
 private:
     ObservedSelection _casters;
     Composite _composite = RELIGHT;
-    float _dark = 0.5f, _opaqueFrom = 0.5f;
+    float _dark = 0.5f, _opaqueFrom = -1.0f;
     std::vector<ObservedNode> _lightSources;
     std::vector<ShadowLight> _lights;
     std::vector<LightUniform> _lightUniforms;

@@ -267,6 +267,16 @@ TEST_P(SceneFile, KeepsEverySettingOfEveryNodeToTheBit) { expectSameOnceLoaded(*
 
 TEST_P(SceneFile, KeepsDefaults) { expectSameOnceLoaded(*freshNodes()); }
 
+TEST_P(SceneFile, KeepsApartAnAlphaThatWasGivenAndNone) {
+    for (const float alpha : {-1.0f, 0.0f, 0.5f, 1.0f}) {
+        osg::ref_ptr<ShadowCasterGroup> group = new ShadowCasterGroup;
+        group->setOpaqueFrom(alpha);
+        const auto copy = test::throughFile(*group, kind());
+        ASSERT_TRUE(copy);
+        EXPECT_EQ(dynamic_cast<ShadowCasterGroup&>(*copy).getOpaqueFrom(), alpha);
+    }
+}
+
 TEST_P(SceneFile, SelectsTheSameNodesAndLightsOfTheLoadedGraph) {
     osg::ref_ptr<osg::Group> root = new osg::Group;
     osg::ref_ptr<ShadowCasterGroup> group = new ShadowCasterGroup;

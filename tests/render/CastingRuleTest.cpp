@@ -240,8 +240,87 @@ struct Shop {
     osg::ref_ptr<ShadowCasterGroup> group = new ShadowCasterGroup;
 };
 
-TEST(CastingRule, WhatHidesLessThanHalfOfWhatIsBehindItCastsNothing) {
-    for (const Glass& glass : glasses) EXPECT_EQ(Shop(glass).casts(), glass.casts) << glass.name;
+TEST(CastingRule, WhatHidesLessThanHalfOfWhatIsBehindItCastsNothingWhereThatIsAsked) {
+    for (const Glass& glass : glasses) {
+        const Shop shop(glass);
+        shop.group->setOpaqueFrom(0.5f);
+        EXPECT_EQ(shop.casts(), glass.casts) << glass.name;
+    }
+}
+
+/// Two texels, each over half of the tower's corners, or over all where they are the same.
+void setTexels(osg::Geometry& geometry, osg::StateSet& state, float one, float other) {
+    const osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(2, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE);
+    image->setColor(osg::Vec4(1.0f, 1.0f, 1.0f, one), 0u, 0u);
+    image->setColor(osg::Vec4(1.0f, 1.0f, 1.0f, other), 1u, 0u);
+    const osg::ref_ptr<osg::Vec2Array> places = new osg::Vec2Array;
+    for (unsigned i = 0; i < geometry.getVertexArray()->getNumElements(); ++i)
+        places->push_back({float(i % 2), float(i % 3) / 2.0f});
+    geometry.setTexCoordArray(0, places);
+    state.setTextureAttributeAndModes(0, new osg::Texture2D(image));
+}
+
+const Glass evenGlasses[] = {
+    {"a material of 0.99", [](auto&, auto& state) { blend(state), setMaterial(state, 0.99f); }, false},
+    {"a material of 1", [](auto&, auto& state) { blend(state), setMaterial(state, 1.0f); }, true},
+    {"not blended", [](auto&, auto& state) { setMaterial(state, 0.7f); }, true},
+    {"a colour of 0.7", [](auto& geometry, auto& state) { blend(state), setColor(geometry, 0.7f); }, false},
+    {"a colour of 0.7 that passes an alpha test",
+     [](auto& geometry, auto& state) {
+         blend(state), setColor(geometry, 0.7f);
+         state.setAttributeAndModes(new osg::AlphaFunc(osg::AlphaFunc::GREATER, 0.4f));
+     },
+     false},
+    {"a blend colour of 0.9",
+     [](auto&, auto& state) {
+         state.setAttributeAndModes(new osg::BlendFunc(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA));
+         state.setAttributeAndModes(new osg::BlendColor({0.0f, 0.0f, 0.0f, 0.9f}));
+     },
+     false},
+    {"vertices of 0.7", [](auto& geometry, auto& state) { blend(state), setColors(geometry, 3, 0.7f, 0.0f); }, false},
+    {"vertices of 0.7 and 0.8", [](auto& geometry, auto& state) { blend(state), setColors(geometry, 2, 0.7f, 0.8f); },
+     true},
+    {"texels of 0.7", [](auto& geometry, auto& state) { blend(state), setTexels(geometry, state, 0.7f, 0.7f); }, false},
+    {"texels of 0.7 and 1", [](auto& geometry, auto& state) { blend(state), setTexels(geometry, state, 0.7f, 1.0f); },
+     true},
+    {"texels of 1 on a colour of 0.7",
+     [](auto& geometry, auto& state) {
+         blend(state), setColor(geometry, 0.7f);
+         setTexels(geometry, state, 1.0f, 1.0f);
+     },
+     false},
+};
+
+TEST(CastingRule, WhatBlendsByOneAlphaBelowOneLetsLightThroughUnlessANumberIsGiven) {
+    for (const Glass& glass : evenGlasses) {
+        const Shop shop(glass);
+        EXPECT_EQ(shop.casts(), glass.casts) << glass.name;
+        shop.group->setOpaqueFrom(0.6f);
+        EXPECT_TRUE(shop.casts()) << glass.name;
+        shop.group->setOpaqueFrom(-1.0f);
+        EXPECT_EQ(shop.casts(), glass.casts) << glass.name;
+    }
+}
+
+TEST(CastingRule, ALakeThatCastsLeavesItsBedAsALakeThatDoesNot) {
+    const test::View above = fromTheSide();
+    for (const std::string spec :
+         {"map", "volume", "traced", "auto", "planar:receiver=ground", "hull:receiver=ground"}) {
+        Picture pictures[2];
+        for (const bool casting : {false, true}) {
+            Scene scene = test::groundScene({tower}, 8.0, sun);
+            const osg::ref_ptr<osg::Geode> water = test::node(test::square(20.0, 2.5), "water");
+            setColor(*water->getDrawable(0)->asGeometry(), 0.7f);
+            setMaterial(*water->getOrCreateStateSet(), 1.0f, osg::Material::AMBIENT_AND_DIFFUSE);
+            blend(*water->getOrCreateStateSet());
+            water->getOrCreateStateSet()->setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
+            (casting ? scene.content : scene.root)->addChild(water);
+            scene.addShadow(spec);
+            pictures[casting] = test::render(scene.root, above);
+        }
+        EXPECT_EQ(pictures[true].different(pictures[false]), 0) << spec;
+    }
 }
 
 TEST(CastingRule, IsTheGroupsAndLive) {
@@ -252,8 +331,7 @@ TEST(CastingRule, IsTheGroupsAndLive) {
     EXPECT_FALSE(shop.casts());
     shop.group->setOpaqueFrom(std::numeric_limits<float>::quiet_NaN());
     EXPECT_EQ(shop.group->getOpaqueFrom(), 0.35f);
-    shop.group->setOpaqueFrom(-1.0f);
-    EXPECT_EQ(shop.group->getOpaqueFrom(), 0.0f);
+    shop.group->setOpaqueFrom(0.0f);
     EXPECT_TRUE(shop.casts());
 }
 

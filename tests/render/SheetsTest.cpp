@@ -193,6 +193,7 @@ TEST(Sheets, ThatOneLooksThroughShadowWhatIsBehindThem) {
             for (const bool pane : {true, false}) {
                 const auto build = [&] {
                     Scene scene = test::scene(light);
+                    scene.group->setOpaqueFrom(0.5f); // which such a pane has
                     scene.content->addChild(test::node(ground));
                     scene.content->addChild(test::node(post));
                     const osg::ref_ptr<osg::Node> node = test::node(caster);

@@ -204,7 +204,7 @@ void CastingJudge::Resolved::findBlend(const PathState& state, const CastingRule
         break;
     case osg::BlendFunc::ONE_MINUS_CONSTANT_ALPHA: {
         const auto* color = state.attribute<osg::BlendColor>(A::BLENDCOLOR);
-        nothing = nothing || !color || color->getConstantColor().a() < rule.opaqueFrom;
+        nothing = nothing || !color || color->getConstantColor().a() < rule.evenFrom;
         break;
     }
     default:
@@ -360,6 +360,7 @@ Casting CastingJudge::of(const osg::NodePath& path, const osg::Drawable& drawabl
     AlphaTest test;
     test.passing = found.test ? found.test->first : 6;
     test.reference = found.test ? found.test->second : _rule->opaqueFrom;
+    test.evenFrom = found.blends ? _rule->evenFrom : 0.0f;
     if (!found.replaces) {
         test.surfaceFrom = found.blends ? _rule->opaqueFrom : 0.0f;
         test.surface = colors.all;

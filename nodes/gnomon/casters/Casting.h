@@ -136,7 +136,8 @@ private:
 
 /// How a group's casters are judged by what is drawn of them.
 struct CastingRule {
-    float opaqueFrom = 0.0f; ///< Alpha from which on a blending drawable casts, 0 … 1. 0: all cast.
+    float opaqueFrom = 0.0f; ///< Alpha from which on parts of a blending drawable cast, 0 … 1. 0: all cast.
+    float evenFrom = 0.0f;   ///< The same of a drawable that has one alpha all over, as glass and water have.
 };
 
 /// A clip plane by OpenGL's number. Kept is what has no negative distance from it.
@@ -144,8 +145,8 @@ using NumberedPlane = std::pair<unsigned, osg::Vec4d>;
 
 /// What the states on the way to a drawable leave of it as a caster: what is not drawn casts nothing.
 ///
-/// - Nothing of what is drawn at the far plane, as skies are; of what only adds to colours, or hides less of them than
-///   CastingRule::opaqueFrom; of what is culled on both sides, drawn as lines or points, masked away, cut off by an empty
+/// - Nothing of what is drawn at the far plane, as skies are; of what only adds to colours, or blends by one
+///   alpha below CastingRule::evenFrom; of what is culled on both sides, drawn as lines or points, masked away, cut off by an empty
 ///   scissor box, or stippled to less than half.
 /// - Of what has an alpha test or blends, the parts that pass the test, or have an alpha of CastingRule::opaqueFrom.
 /// - What clip planes leave.

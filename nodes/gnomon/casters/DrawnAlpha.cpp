@@ -69,6 +69,11 @@ std::vector<float> fourths(const osg::Array& colors, double one) {
     return result;
 }
 
+AlphaRange rangeOf(const std::vector<float>& alphas) {
+    const auto [least, most] = std::minmax_element(alphas.begin(), alphas.end());
+    return alphas.empty() ? AlphaRange() : AlphaRange{*least, *most};
+}
+
 void mixArray(const osg::Array* array, Fingerprint& into) {
     into.mix(static_cast<const void*>(array));
     if (array) into.mix(std::uint64_t{array->getModifiedCount()} << 32 | array->getNumElements());
@@ -192,7 +197,7 @@ std::vector<osg::Vec3> AlphaTest::coordinatesOf(const osg::Drawable& drawable, c
 
 void AlphaTest::mix(const osg::Drawable& drawable, Fingerprint& into) const {
     into.mix(static_cast<std::uint64_t>(passing));
-    for (const float alpha : {reference, surfaceFrom, surface}) into.mix(double{alpha});
+    for (const float alpha : {reference, surfaceFrom, evenFrom, surface}) into.mix(double{alpha});
     into.mix(static_cast<const void*>(texture.get()));
     if (byVertex) mixArray(colorArray(drawable), into);
     if (!texture) return;
@@ -232,9 +237,17 @@ std::vector<float> vertexAlphas(const osg::Drawable& drawable) {
 ClearParts::ClearParts(const AlphaTest& test, const osg::Drawable& drawable) : _test(test) {
     if (test.texture) _coordinates = AlphaTest::coordinatesOf(drawable, test.matrix);
     if (test.byVertex) _vertices = vertexAlphas(drawable);
+    AlphaRange all{test.surface, test.surface};
+    if (test.byVertex) all = rangeOf(_vertices);
+    if (test.texture) {
+        const AlphaRange texture = test.alphas ? test.alphas->over({0.0, 0.0}, {1.0, 1.0}) : AlphaRange();
+        all = {all.least * texture.least, all.most * texture.most};
+    }
+    _lightPasses = !(all.least < all.most) && all.most < test.evenFrom;
 }
 
 ClearParts::Part ClearParts::of(unsigned a, unsigned b, unsigned c) const {
+    if (_lightPasses) return Clear;
     AlphaRange surface{_test.surface, _test.surface};
     if (_test.byVertex) {
         if (std::max({a, b, c}) >= _vertices.size()) return Mixed;

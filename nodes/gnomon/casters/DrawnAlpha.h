@@ -63,6 +63,7 @@ struct AlphaTest {
     int passing = 0;          ///< Bits: 1 passes alpha below the reference, 2 equal alpha, 4 alpha above it.
     float reference = 0.0f;   ///< Reference, 0 … 1.
     float surfaceFrom = 0.0f; ///< Where the surface's own alpha is less, it casts nothing.
+    float evenFrom = 0.0f;    ///< Where the drawable has one alpha all over, and it is less, all of it is clear.
     float surface = 1.0f;     ///< Alpha of the surface.
     bool byVertex = false;    ///< Colours of vertices have it instead.
     osg::ref_ptr<osg::Texture2D> texture;    ///< On unit 0; null if no texture has any.
@@ -101,6 +102,7 @@ private:
     const AlphaTest& _test;
     std::vector<osg::Vec3> _coordinates;
     std::vector<float> _vertices; ///< alphas.
+    bool _lightPasses = false;    ///< everywhere: see AlphaTest::evenFrom.
 };
 
 } // namespace gnomon

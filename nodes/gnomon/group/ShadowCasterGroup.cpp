@@ -20,9 +20,14 @@ bool isLightNumber(int number, const char* method) {
     return false;
 }
 
+/// @param opaqueFrom  as ShadowCasterGroup::setOpaqueFrom() has it.
+CastingRule ruleOf(float opaqueFrom) {
+    return opaqueFrom < 0.0f ? CastingRule{0.5f, 1.0f} : CastingRule{opaqueFrom, opaqueFrom};
+}
+
 } // namespace
 
-ShadowCasterGroup::ShadowCasterGroup() : _table(new CasterTable) { _table->setRule({_opaqueFrom}); }
+ShadowCasterGroup::ShadowCasterGroup() : _table(new CasterTable) { _table->setRule(ruleOf(_opaqueFrom)); }
 
 ShadowCasterGroup::ShadowCasterGroup(const ShadowCasterGroup& other, const osg::CopyOp& copyOp)
     : osg::Group(other, copyOp),
@@ -34,7 +39,7 @@ ShadowCasterGroup::ShadowCasterGroup(const ShadowCasterGroup& other, const osg::
       _lightUniforms(other._lightUniforms),
       _options(other._options),
       _table(new CasterTable) {
-    _table->setRule({_opaqueFrom});
+    _table->setRule(ruleOf(_opaqueFrom));
     for (const ObservedNode& source : other._lightSources) _lightSources.emplace_back(source, other);
 }
 
@@ -59,12 +64,14 @@ void ShadowCasterGroup::setDark(float factor) {
 
 void ShadowCasterGroup::setOpaqueFrom(float alpha) {
     if (std::isnan(alpha)) {
-        OSG_WARN << "gnomon: ShadowCasterGroup::setOpaqueFrom(): NaN is refused. Give an alpha from 0 (all cast) to 1."
-                 << std::endl;
+        OSG_WARN
+            << "gnomon: ShadowCasterGroup::setOpaqueFrom(): NaN is refused. Give an alpha from 0 (all cast) to 1, or "
+               "-1 (glass and water do not)."
+            << std::endl;
         return;
     }
-    _opaqueFrom = std::clamp(alpha, 0.0f, 1.0f);
-    _table->setRule({_opaqueFrom});
+    _opaqueFrom = alpha < 0.0f ? -1.0f : std::min(alpha, 1.0f);
+    _table->setRule(ruleOf(_opaqueFrom));
 }
 
 void ShadowCasterGroup::addLight(osg::LightSource* light) {

@@ -32,7 +32,7 @@ constexpr double hillHeight = 1.2; // metres
 constexpr double slopeDegrees = 18.0;
 constexpr double clippedAt = 0.5; // of a unit mesh's height
 constexpr unsigned clipPlanes = 6;
-constexpr float clear = 0.3f, solid = 0.97f; // alpha
+constexpr float clear = 0.3f, solid = 1.0f; // alpha
 const RandomScene usual;
 constexpr const char* groundNames[] = {"flat", "tilted", "hills"};
 
