@@ -53,6 +53,39 @@ TEST(ProgramText, InstancesBonesAndWavesMoveThem) {
                       "gl_Position = gl_ModelViewProjectionMatrix * (gl_Vertex + vec4(0, 0, sin(time), 0)); }"));
 }
 
+TEST(ProgramText, EachWayToWriteAPartOfThemMovesThem) {
+    const std::string then = " gl_Position = gl_ModelViewProjectionMatrix * v; }";
+    for (const std::string way :
+         {"v.z += 2.0;", "v.z = 3.0;", "v.z = 0.5 * sin(v.x);", "v.z++;", "++v.z;", "v.b += 2.0;", "v.p *= 2.0;",
+          "v[2] += 2.0;", "v.yz = vec2(1.0);", "v.xyz[2] = 1.0;", "v += vec4(0.0, 0.0, 2.0, 0.0);",
+          "if (v.x == 0.0) v.z = 1.0;", "if (v.x <= 0.0) v.z -= 1.0;"})
+        EXPECT_TRUE(moves("void main() { vec4 v = gl_Vertex; " + way + then)) << way;
+    EXPECT_TRUE(moves("void lift(inout vec4 p) { p.z += 2.0; }\nvoid main() { vec4 v = gl_Vertex; lift(v);" + then));
+    EXPECT_TRUE(moves("void main() { vec4 v = gl_ModelViewMatrix * gl_Vertex; v.z += 2.0;\n"
+                      "gl_Position = gl_ProjectionMatrix * v; }"))
+        << "an eye's z is a place";
+    EXPECT_FALSE(moves("void main() { vec4 v = gl_Vertex; float h = v.z; if (v.z == 1.0) h += 1.0;\n"
+                       "for (int i = 0; i < 3; ++i) h *= 2.0; gl_FrontColor = vec4(h);" +
+                       then));
+}
+
+TEST(ProgramText, DepthAloneIsWrittenInClipSpace) {
+    EXPECT_FALSE(moves("void main() { gl_Position = ftransform(); gl_Position.z -= 0.01; }"));
+    EXPECT_FALSE(moves("void main() { vec4 c = gl_ModelViewProjectionMatrix * gl_Vertex; c.z -= 0.01 * c.w;\n"
+                       "gl_Position = c; }"));
+    EXPECT_FALSE(moves("uniform mat4 all; void main() { gl_Position = all * gl_Vertex; gl_Position.z = 0.0; }"));
+    EXPECT_TRUE(moves("void main() { gl_Position = ftransform(); gl_Position.y -= 0.01; }"));
+    EXPECT_TRUE(moves("void main() { vec4 c = gl_ModelViewProjectionMatrix * gl_Vertex;\n"
+                      "vec4 v = gl_ModelViewProjectionMatrixInverse * c; v.z += 1.0;\n"
+                      "gl_Position = gl_ModelViewProjectionMatrix * v; }"));
+}
+
+TEST(ProgramText, AClipDistanceDiscards) {
+    const auto discards = [](const char* text) { return gnomon::mayDiscard(*programOf(text)); };
+    EXPECT_TRUE(discards("void main() { gl_Position = ftransform(); gl_ClipDistance[0] = 1.0 - gl_Vertex.z; }"));
+    EXPECT_FALSE(discards("void main() { gl_Position = ftransform(); } // gl_ClipDistance"));
+}
+
 TEST(ProgramText, AnotherStageMayMoveThem) {
     const osg::ref_ptr<osg::Program> program = programOf("void main() { gl_Position = ftransform(); }");
     program->addShader(new osg::Shader(osg::Shader::GEOMETRY, "void main() {}"));

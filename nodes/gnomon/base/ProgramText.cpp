@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstring>
 #include <map>
 #include <set>
 #include <string>
@@ -19,6 +20,8 @@ using Tokens = std::vector<std::string>;
 constexpr const char* discard = "discard";
 
 bool contains(const std::string& text, const char* word) { return text.find(word) != std::string::npos; }
+
+bool cuts(const std::string& text) { return contains(text, "gl_ClipDistance") || contains(text, "gl_CullDistance"); }
 
 bool isWord(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
 bool isName(const std::string& token) {
@@ -61,6 +64,7 @@ public:
     VertexWay(const Tokens& tokens, const osg::Program& program) {
         for (const auto& [name, index] : program.getAttribBindingList())
             if (index == 0) _vertex.insert(name);
+        _hasInOut = std::find(tokens.begin(), tokens.end(), "inout") != tokens.end();
         Tokens statement;
         for (const std::string& token : tokens)
             if (token == ";" || token == "{" || token == "}") {
@@ -76,18 +80,41 @@ private:
     void take(const Tokens& statement) {
         if (statement.size() < 2) return;
         declare(statement);
-        const auto equals = std::find(statement.begin(), statement.end(), "=");
-        if (equals == statement.end() || equals == statement.begin()) return;
-        const Tokens left(statement.begin(), equals), right(equals + 1, statement.end());
-        const auto dot = std::find(left.begin(), left.end(), ".");
-        if (dot != left.end()) { // x and y tell where it is
-            if (*(dot + 1) != "z") stop(*(dot - 1));
-        } else if (!isName(left.back())) { // an element, or an operation in place
-            stop(left.front());
-        } else if (keeps(right))
-            _vertex.insert(left.back());
-        else
-            stop(left.back());
+        bool assigns = false;
+        for (std::size_t at = 1; at + 1 < statement.size(); ++at) {
+            const bool compares = statement[at + 1] == "=" || isOneOf("=!<>", statement[at - 1]);
+            if (statement[at] != "=" || compares) continue;
+            assigns = true;
+            assign(Tokens(statement.begin(), statement.begin() + long(at)),
+                   Tokens(statement.begin() + long(at) + 1, statement.end()));
+        }
+        const bool counts = std::adjacent_find(statement.begin(), statement.end(), [](const auto& a, const auto& b) {
+                                return a == b && isOneOf("+-", a);
+                            }) != statement.end();
+        if (counts || (!assigns && _hasInOut && isName(statement[0]) && statement[1] == "("))
+            for (const std::string& token : statement) stop(token);
+    }
+
+    /// @param left  what stands before the sign, which ends with the target.
+    void assign(Tokens left, const Tokens& right) {
+        const bool inPlace = isOneOf("+-*/", left.back());
+        if (inPlace) left.pop_back();
+        bool element = false;
+        for (; !left.empty() && left.back() == "]"; element = true) {
+            while (!left.empty() && left.back() != "[") left.pop_back();
+            if (!left.empty()) left.pop_back();
+        }
+        if (left.empty()) return;
+        const bool member = left.size() > 2 && left[left.size() - 2] == ".";
+        const std::string &last = left.back(), &target = member ? left[left.size() - 3] : last;
+        if (member && !element && last == "z" && _clip.count(target) > 0) return; // x, y and w tell where it is
+        const bool whole = !member && !element && !inPlace && keeps(right);
+        if (!whole) return stop(target);
+        _vertex.insert(target);
+        if (isInClip(right))
+            _clip.insert(target);
+        else if (target != "gl_Position")
+            _clip.erase(target);
     }
 
     /// Matrices that are uniforms, and the attribute of location 0.
@@ -121,10 +148,24 @@ private:
         static const std::set<std::string> plain{"*", "(", ")", ",", ".", "vec3", "vec4", "1", "1.", "1.0", "1.0f"};
         return plain.count(token) > 0;
     }
+    bool isInClip(const Tokens& right) const {
+        const auto isInverse = [](const std::string& token) { return contains(token, "Inverse"); };
+        const auto isProjected = [this](const std::string& token) {
+            return _clip.count(token) > 0 || token == "ftransform" ||
+                   (isMatrix(token) && contains(token, "Projection"));
+        };
+        return std::none_of(right.begin(), right.end(), isInverse) &&
+               std::any_of(right.begin(), right.end(), isProjected);
+    }
+    static bool isOneOf(const char* signs, const std::string& token) {
+        return token.size() == 1 && std::strchr(signs, token[0]);
+    }
     static bool isAll(const std::string& token) { return token == "xyz" || token == "xyzw" || token == "w"; }
     void stop(const std::string& name) { _vertex.erase(name); }
 
     std::set<std::string> _vertex{"gl_Vertex", "osg_Vertex"}, _matrices;
+    std::set<std::string> _clip{"gl_Position"}; ///< those of _vertex that are in clip space, where z is depth alone.
+    bool _hasInOut = false;                     ///< a function may write what it is given.
 };
 
 /// An assignment to a z, by a logarithm somewhere.
@@ -150,7 +191,8 @@ ProgramPlaces found(const osg::Program& program, const std::string& vertex, cons
     places.movesVertices = !vertex.empty() && !VertexWay(tokens, program).arrives();
     places.setsDepth = bendsDepth(vertex, tokens) || replacesDepth(fragment);
     const Tokens inFragment = contains(fragment, discard) ? tokensOf(fragment) : Tokens();
-    places.discards = std::find(inFragment.begin(), inFragment.end(), discard) != inFragment.end();
+    places.discards = std::find(inFragment.begin(), inFragment.end(), discard) != inFragment.end() ||
+                      std::any_of(tokens.begin(), tokens.end(), [](const auto& token) { return cuts(token); });
     return places;
 }
 
@@ -184,10 +226,25 @@ ProgramPlaces placesOf(const osg::Program& program) {
 bool mayDiscard(const osg::Program& program) {
     for (unsigned i = 0; i < program.getNumShaders(); ++i) {
         const osg::Shader& shader = *program.getShader(i);
-        if (shader.getType() == osg::Shader::FRAGMENT && contains(shader.getShaderSource(), discard))
+        const std::string& text = shader.getShaderSource();
+        if (shader.getType() == osg::Shader::FRAGMENT ? contains(text, discard) : cuts(text))
             return placesOf(program).discards;
     }
     return false;
+}
+
+bool writesClipDistance(const osg::Program& program) {
+    for (unsigned i = 0; i < program.getNumShaders(); ++i)
+        if (cuts(program.getShader(i)->getShaderSource())) return true;
+    return false;
+}
+
+bool mayApplyProgram(const osg::StateAttribute& attribute) {
+    using A = osg::StateAttribute;
+    const A::Type type = attribute.getType();
+    if (type == A::PROGRAM) return !dynamic_cast<const osg::Program*>(&attribute);
+    const bool isArb = type == A::VERTEXPROGRAM || type == A::FRAGMENTPROGRAM;
+    return isArb || attribute.getShaderComponent() || (type > A::SAMPLER && type != A::CAPABILITY);
 }
 
 } // namespace gnomon

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <osg/Program>
+#include <osg/StateAttribute>
 
 namespace gnomon {
 
@@ -12,13 +13,20 @@ struct ProgramPlaces {
     bool movesVertices = false;
     /// The depth is not the one that the projection gives: a logarithm, or a gl_FragDepth of its own.
     bool setsDepth = false;
-    /// Fragments may be discarded.
+    /// Fragments may be discarded, or cut off by gl_ClipDistance.
     bool discards = false;
+    /// Its text is not known: see mayApplyProgram(). All of the above may be.
+    bool unseen = false;
 };
 
 /// Threads any number. What was found is kept, by the text.
 ProgramPlaces placesOf(const osg::Program& program);
 /// The same as placesOf().discards, and cheap for a program that does not.
 bool mayDiscard(const osg::Program& program);
+/// True if its text writes gl_ClipDistance, which a clip mode of each of its elements switches on.
+bool writesClipDistance(const osg::Program& program);
+/// True of an attribute that may draw by a program, and is no osg::Program: one of a type that OpenSceneGraph does not know, as
+/// osgEarth's VirtualProgram, one of its shader composition's, or an ARB program.
+bool mayApplyProgram(const osg::StateAttribute& attribute);
 
 } // namespace gnomon
