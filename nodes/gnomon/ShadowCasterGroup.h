@@ -53,7 +53,8 @@ struct CasterView;
 /// - A drawable in render bin 8 or higher receives if it writes depth, has bounds and an alpha of 1; by a program: where it has.
 /// - Translucent drawables receive no shadow. Through one that writes depth, a receiver of bin 8 or higher looks lit.
 /// - Under smooth and soft edges, drawables that blend or write no depth are darkened by setDark().
-/// - VertexTraverser lists which drawables never cast. What is not drawn does not cast either: what clip planes, culling of
+/// - VertexTraverser lists which drawables never cast; but billboards, and AutoTransforms that turn, cast as each view draws
+///   them: while the camera moves they are read again. What is not drawn does not cast either: what clip planes, culling of
 ///   both faces, masks, tests that never pass or an empty scissor box take away, and polygons drawn as lines or points.
 ///   Nor does what is drawn at the far plane, as skies are. Of what a stipple thins out, half must be left.
 /// - A ClipPlane that is no ClipNode's is taken as given in the frame of each drawable that it cuts.
@@ -81,6 +82,7 @@ struct CasterView;
 ///       Spots 1 { 0 0 -1 30 }
 ///       LightUniforms 1 { 0 "sunColor" }
 ///       CompositorOptions 15 TRUE 10000
+///       Clipping ALL
 ///     }
 class GNOMON_EXPORT ShadowCasterGroup : public osg::Group, public ShowsChildren, public NamesNodes {
 public:
@@ -88,6 +90,14 @@ public:
     enum Composite : int {
         RELIGHT, ///< Exact: draws them again without the light's diffuse and specular.
         BLEND    ///< Cheap: multiplies their colour by setDark(), once a pixel.
+    };
+
+    /// Which clip planes, of osg::ClipNode and osg::ClipPlane, cut what casts. Each cuts what is seen.
+    enum Clipping : int {
+        GRAPH, ///< Those of the main graph, as of a section through a building. Not those of a view: of a nested camera's state
+        ///< set, between it and the group, or in the eye's frame, as a pass for refraction has.
+        ALL, ///< All, as where a nested camera draws the whole scene.
+        NONE ///< None, so that sun does not shine into a building that is cut open.
     };
 
     /// An empty group.
@@ -113,6 +123,11 @@ public:
     void setOpaqueFrom(float alpha);
     /// See setOpaqueFrom().
     float getOpaqueFrom() const { return _opaqueFrom; }
+
+    /// Which clip planes cut what casts. Default GRAPH, which also replaces any unknown value.
+    void setClipping(Clipping clipping);
+    /// See setClipping().
+    Clipping getClipping() const { return _clipping; }
 
     /// How shadowed pixels are darkened. Default RELIGHT, which also replaces any unknown value.
     void setComposite(Composite composite) { _composite = composite == BLEND ? BLEND : RELIGHT; }
@@ -181,6 +196,7 @@ protected:
 private:
     ObservedSelection _casters;
     Composite _composite = RELIGHT;
+    Clipping _clipping = GRAPH;
     float _dark = 0.5f, _opaqueFrom = -1.0f;
     std::vector<ObservedNode> _lightSources;
     std::vector<ShadowLight> _lights;

@@ -27,18 +27,18 @@ using namespace gnomon;
 //
 // In binary files each object of the kit begins with a mark and a version. OSG's own header cannot tell it, because the
 // programs that write files do not know the kit. Text files name their properties and need no version. A property that
-// is added belongs into a new version, here 4, and `fileVersion` becomes 4:
+// is added belongs into a new version, here 5, and `fileVersion` becomes 5:
 //
 //     {
-//         UPDATE_TO_VERSION_SCOPED(4)
+//         UPDATE_TO_VERSION_SCOPED(5)
 //         ADD_BOOL_SERIALIZER(Tint, fresh->getTint());
 //     }
 namespace {
 
 /// OSG's word for the library that a version belongs to.
 constexpr const char* fileDomain = "gnomon";
-/// The version that is written, and the only one that is read: older ones are of no release.
-constexpr int fileVersion = 3;
+constexpr int fileVersion = 4;                ///< The version that is written.
+constexpr int firstVersion = 3;               ///< The oldest that is read.
 constexpr char mark[] = {'g', 'n', 'm', 'n'}; // files without it have switches, enumerators or numbers here
 
 /// The stream below, which OSG shows to none but classes that inherit.
@@ -85,7 +85,7 @@ public:
         if (version > fileVersion)
             in.throwException("gnomon: the file is of version " + std::to_string(version) +
                               ", which this Gnomon does not know. Update Gnomon, or save the file as .osgt.");
-        if (version < fileVersion)
+        if (version < firstVersion)
             in.throwException(
                 "gnomon: the file is of a version before the first release. Save it as .osgt with the Gnomon "
                 "that wrote it.");
@@ -210,6 +210,9 @@ GNOMON_WRAPPER(ShadowCasterGroup, newGroup(), "osg::Object osg::Node osg::Group"
     ADD_USER_SERIALIZER(Spots);
     addList<MyClass, &MyClass::getLightUniforms, &MyClass::setLightUniforms>(*wrapper, "LightUniforms");
     fields::addCompositorOptions<MyClass>(*wrapper);
+    UPDATE_TO_VERSION_SCOPED(4)
+    fields::addEnum(*wrapper, "Clipping", &MyClass::getClipping, &MyClass::setClipping,
+                    {{"GRAPH", MyClass::GRAPH}, {"ALL", MyClass::ALL}, {"NONE", MyClass::NONE}});
 }
 
 GNOMON_WRAPPER(ShadowTechnique, nullptr, "osg::Object osg::Node osg::Geode", "") {

@@ -143,6 +143,7 @@ osg::ref_ptr<osg::Group> everySetting() {
     group->setComposite(ShadowCasterGroup::BLEND);
     group->setDark(half);
     group->setOpaqueFrom(third);
+    group->setClipping(ShadowCasterGroup::NONE);
     group->setLightSources({sun, lamp});
     group->setLights(
         {{1, delicate[0]}, {2, delicate[1], {0.1, -1.0 / 3.0, 4234567.123456789}, 100.0 / 3.0}, {7, delicate[2]}});
@@ -458,11 +459,24 @@ TEST_P(SceneFile, LoadsOnceALaterVersionHasAddedAProperty) {
     EXPECT_NE(test::written(*everySetting(), kind()), marked) << "the property was not written";
 }
 
+TEST(BinaryFile, OfTheVersionBeforeHasDefaultsForWhatCameLater) {
+    test::usePluginsOfThisBuild();
+    const osg::ref_ptr<ShadowCasterGroup> group = new ShadowCasterGroup;
+    group->setDark(third);
+    group->setClipping(ShadowCasterGroup::ALL);
+    std::string file = test::written(*group, "osgb");
+    file[file.find("gnmn") + 4] = 3;
+    const auto loaded = test::loadedAs<ShadowCasterGroup>(file, "osgb");
+    ASSERT_TRUE(loaded);
+    EXPECT_EQ(loaded->getDark(), third);
+    EXPECT_EQ(loaded->getClipping(), ShadowCasterGroup::GRAPH);
+}
+
 TEST(BinaryFile, OfAnotherVersionIsRefusedWithTheReason) {
     test::usePluginsOfThisBuild();
     std::string file = test::written(*osg::ref_ptr<osg::Node>(new ShadowCasterGroup), "osgb");
     const std::size_t version = file.find("gnmn") + 4;
-    ASSERT_EQ(file.substr(version, 4), std::string("\3\0\0\0", 4));
+    ASSERT_EQ(file.substr(version, 4), std::string("\4\0\0\0", 4));
     EXPECT_TRUE(test::loaded(file, "osgb"));
     const auto why = [&](char number) {
         file[version] = number;

@@ -6,6 +6,8 @@
 #include <gnomon/casters/CasterTable.h>
 #include <gnomon/casters/Casting.h>
 
+#include <osg/AutoTransform>
+#include <osg/Billboard>
 #include <osg/LOD>
 #include <osg/PagedLOD>
 #include <osg/Sequence>
@@ -15,6 +17,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <random>
 #include <set>
 
@@ -72,8 +75,8 @@ public:
     mutable Drawables drawn;
 };
 
-Drawables shownBy(osg::Node& root, const CasterView& view, Shown& shown) {
-    shown.drawn.clear();
+/// Goes through a graph as a view's cull does. @return where it draws what, in the group's frame.
+std::map<const osg::Drawable*, osg::Matrixd> culled(osg::Node& root, const CasterView& view) {
     osg::ref_ptr<osgUtil::CullVisitor> cull = new osgUtil::CullVisitor;
     cull->setCullingMode(osg::CullSettings::NO_CULLING);
     cull->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
@@ -89,6 +92,15 @@ Drawables shownBy(osg::Node& root, const CasterView& view, Shown& shown) {
     cull->popModelViewMatrix();
     cull->popProjectionMatrix();
     cull->popViewport();
+    std::map<const osg::Drawable*, osg::Matrixd> drawn;
+    for (const auto& leaf : graph->_leaves)
+        drawn[leaf->getDrawable()] = *leaf->_modelview * osg::Matrixd::inverse(view.eyeFromGroup);
+    return drawn;
+}
+
+Drawables shownBy(osg::Node& root, const CasterView& view, Shown& shown) {
+    shown.drawn.clear();
+    culled(root, view);
     return shown.drawn;
 }
 
@@ -183,6 +195,57 @@ TEST(CasterLevels, AreThoseThatACullOfTheViewShows) {
             }
     }
     EXPECT_GT(choices, 100) << "too few cases choose";
+}
+
+/// Signs by each mode, one of them on another and under a level, and trees by each mode.
+osg::ref_ptr<osg::Group> turningScene() {
+    const osg::ref_ptr<osg::Group> content =
+        new osg::MatrixTransform(osg::Matrixd::rotate(0.4, osg::Vec3d(1, 2, 3)) * osg::Matrixd::translate(3, -2, 5));
+    osg::ref_ptr<osg::AutoTransform> last;
+    double x = 0.0;
+    for (const auto mode : {osg::AutoTransform::ROTATE_TO_SCREEN, osg::AutoTransform::ROTATE_TO_CAMERA,
+                            osg::AutoTransform::ROTATE_TO_AXIS, osg::AutoTransform::ROTATE_TO_CAMERA}) {
+        const osg::ref_ptr<osg::AutoTransform> sign = new osg::AutoTransform;
+        sign->setPosition({x, 2.0 * x, -x});
+        sign->setAxis({0, 0, 1});
+        sign->setNormal({0, -1, 0});
+        sign->setAutoRotateMode(mode);
+        const osg::ref_ptr<osg::LOD> level = new osg::LOD;
+        level->addChild(triangle(), 0.0f, 1e6f);
+        sign->addChild(level);
+        (x == 9.0 ? last.get() : content.get())->addChild(sign);
+        last = sign;
+        x += 3.0;
+    }
+    for (const auto mode :
+         {osg::Billboard::POINT_ROT_EYE, osg::Billboard::POINT_ROT_WORLD, osg::Billboard::AXIAL_ROT}) {
+        const osg::ref_ptr<osg::Billboard> trees = new osg::Billboard;
+        trees->setMode(mode);
+        trees->setNormal({0, -1, 0});
+        for (const float y : {0.0f, 7.0f}) trees->addDrawable(triangle(), osg::Vec3(static_cast<float>(x), y, 1.0f));
+        content->addChild(trees);
+        x += 3.0;
+    }
+    return content;
+}
+
+TEST(TurningCasters, StandAsACullOfEachViewDrawsThem) {
+    const osg::ref_ptr<gnomon::ShadowCasterGroup> group = new gnomon::ShadowCasterGroup;
+    group->addChild(turningScene());
+    EXPECT_TRUE(group->casters()->list.empty()) << "without a view nothing turns";
+    const CasterView views[] = {viewFrom({30, 20, 40}, &views[0]), viewFrom({-50, 3, 20}, &views[1])};
+    for (const CasterView& view : views) {
+        auto drawn = culled(*group, view);
+        const auto casters = group->casters(&view);
+        ASSERT_EQ(drawn.size(), 10u);
+        ASSERT_EQ(casters->list.size(), 10u);
+        for (const auto& piece : casters->list)
+            for (int i = 0; i < 16; ++i) // a billboard turns by floats
+                EXPECT_NEAR(piece->groupFromLocal.ptr()[i], drawn[piece->drawable.get()].ptr()[i], 1e-4) << i;
+    }
+    const unsigned before = group->revision();
+    for (const CasterView& view : views) group->casters(&view);
+    EXPECT_EQ(group->revision(), before) << "two views that rest change nothing";
 }
 
 TEST(CasterLevels, WithoutAViewAreTheFinest) {

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What is drawn casts, and what is not drawn does not: by each state that takes something away.
+#include "IntoTexture.h"
+
+#include <support/Oracle.h>
 #include <support/Picture.h>
 #include <support/Scene.h>
 
@@ -395,15 +398,6 @@ const Clip clips[] = {
          scene.root->addChild(under(askew, clip));
          clip->setStateSetModes(*scene.content->getChild(1)->getOrCreateStateSet(), osg::StateAttribute::ON);
      }},
-    {"by a ClipNode that belongs to the eye",
-     [](Scene& scene) {
-         const osg::ref_ptr<osg::ClipNode> clip = new osg::ClipNode;
-         clip->setReferenceFrame(osg::ClipNode::ABSOLUTE_RF);
-         const osg::Matrixd worldFromEye = osg::Matrixd::inverse(fromTheSide().view);
-         clip->addClipPlane(new osg::ClipPlane(1, worldFromEye * lowHalf));
-         clip->addChild(scene.content->getChild(1));
-         scene.content->setChild(1, clip);
-     }},
     {"by its own state, in its own frame",
      [](Scene& scene) {
          const osg::ref_ptr<osg::Node> node = scene.content->getChild(1);
@@ -437,6 +431,106 @@ TEST(ClippedCasters, CastWhatIsLeftOfThem) {
         for (const Clip& clip : clips) // OpenGL's own cut is no edge of a mesh, to a pixel here and there
             EXPECT_LE(clipped(spec, tower, clip.set).different(expected), 8) << spec << " " << clip.name;
     }
+}
+
+/// Where a plane stands that cuts a roof off a ground in a nested camera's picture, or in that of the main one.
+struct ViewClip {
+    const char* name;
+    bool nested, ofGraph;
+    std::function<osg::ref_ptr<osg::Group>(Scene&, osg::ClipNode&)>
+        set; ///< the scene, and a plane in the world's frame.
+};
+
+osg::ref_ptr<osg::Group> below(osg::ClipNode& clip, osg::Node* node) {
+    clip.addChild(node);
+    return &clip;
+}
+
+const test::View overhead = test::fromAbove(4.0, 96);
+
+/// In the frame of the eye.
+void belongToEye(osg::ClipNode& clip) {
+    clip.setReferenceFrame(osg::ClipNode::ABSOLUTE_RF);
+    osg::ClipPlane& plane = *clip.getClipPlane(0);
+    plane.setClipPlane(osg::Matrixd::inverse(overhead.view) * plane.getClipPlane());
+}
+
+const ViewClip viewClips[] = {
+    {"by a ClipNode between a nested camera and the group", true, false,
+     [](Scene& scene, osg::ClipNode& clip) { return below(clip, scene.root); }},
+    {"by one of the eye's frame there", true, false,
+     [](Scene& scene, osg::ClipNode& clip) {
+         belongToEye(clip);
+         return below(clip, scene.root);
+     }},
+    {"by one of the eye's frame in the main graph", false, false,
+     [](Scene& scene, osg::ClipNode& clip) {
+         belongToEye(clip);
+         return below(clip, scene.root);
+     }},
+    {"by one of the eye's frame in the group", false, false,
+     [](Scene& scene, osg::ClipNode& clip) {
+         belongToEye(clip);
+         clip.addChild(scene.content->getChild(1));
+         scene.content->setChild(1, &clip);
+         return osg::ref_ptr<osg::Group>(scene.root);
+     }},
+    {"by one beside it, with the modes in the group", true, false,
+     [](Scene& scene, osg::ClipNode& clip) {
+         scene.root->addChild(&clip);
+         clip.setStateSetModes(*scene.content->getChild(1)->getOrCreateStateSet(), osg::StateAttribute::ON);
+         return osg::ref_ptr<osg::Group>(scene.root);
+     }},
+    {"by one in the group", true, true,
+     [](Scene& scene, osg::ClipNode& clip) {
+         clip.addChild(scene.content->getChild(1));
+         scene.content->setChild(1, &clip);
+         return osg::ref_ptr<osg::Group>(scene.root);
+     }},
+    {"by one of the main graph", false, true,
+     [](Scene& scene, osg::ClipNode& clip) { return below(clip, scene.root); }},
+};
+
+/// What casts is a roof. A plane leaves the ground alone to be seen, with or without the roof's shadow.
+TEST(ClippedCasters, CastWholeWhereThePlaneIsAViewsUnlessThatIsAsked) {
+    const test::Mesh ground = test::square(8.0), roof = test::square(1.0, 2.0);
+    const test::Target target;
+    const auto drawn = [&](osg::Node* root, bool nested) {
+        return nested ? test::IntoTexture(root, overhead, target).camera->frame() : test::render(root, overhead);
+    };
+    for (const ViewClip& each : viewClips)
+        for (const auto clipping : {ShadowCasterGroup::GRAPH, ShadowCasterGroup::ALL, ShadowCasterGroup::NONE})
+            for (const std::string spec : {"map", "volume", "planar:receiver=ground"}) {
+                const bool casts =
+                    clipping == ShadowCasterGroup::NONE || (clipping == ShadowCasterGroup::GRAPH && !each.ofGraph);
+                const test::Mask truth =
+                    test::castRays(ground, {}, sun, overhead, std::vector<test::Mesh>(casts ? 1 : 0, roof));
+                Scene lit = test::groundScene({}, 8.0, sun), dark = test::groundScene({}, 8.0, sun),
+                      scene = test::groundScene({roof}, 8.0, sun);
+                dark.takeLightAway();
+                scene.addShadow(spec);
+                scene.group->setClipping(clipping);
+                const osg::ref_ptr<osg::ClipNode> clip = new osg::ClipNode;
+                clip->addClipPlane(new osg::ClipPlane(0, lowHalf));
+                const osg::ref_ptr<osg::Group> root = each.set(scene, *clip);
+                const test::Comparison found = test::compare(drawn(root, each.nested), drawn(lit.root, each.nested),
+                                                             drawn(dark.root, each.nested), truth);
+                EXPECT_EQ(found.wrongInside, 0) << spec << " " << each.name << " " << clipping;
+            }
+}
+
+TEST(ClippedCasters, CastWholeWhereANestedCamerasStateClips) {
+    const test::Mesh roof = test::square(1.0, 2.0);
+    Scene scene = test::groundScene({roof}, 8.0, sun), bare = test::groundScene({}, 8.0, sun);
+    scene.addShadow("map");
+    const test::Target target;
+    test::IntoTexture into(scene.root, overhead, target);
+    into.into->getOrCreateStateSet()->setAttributeAndModes(new osg::ClipPlane(0, lowHalf));
+    const Picture lit = test::IntoTexture(bare.root, overhead, target).camera->frame();
+    bare.takeLightAway();
+    const Picture dark = test::IntoTexture(bare.root, overhead, target).camera->frame();
+    const test::Mask truth = test::castRays(test::square(8.0), {}, sun, overhead, {roof});
+    EXPECT_EQ(test::compare(into.camera->frame(), lit, dark, truth).wrongInside, 0);
 }
 
 TEST(ClippedCasters, CastNothingBeyondAPlane) {

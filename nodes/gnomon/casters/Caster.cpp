@@ -59,7 +59,7 @@ SelfDrawing::SelfDrawing(const osg::NodePath& path, const osg::Drawable& given, 
       bounds(placedBox(given.getBoundingBox(), matrix)),
       casting(what),
       hasPiece(hasTriangles(given) && !drawsItself(given)),
-      byProgram(PathState(path).program() != nullptr),
+      byProgram(PathState(path).isProgrammed()),
       mayChange(changesUnseen(given)) {
     CasterVisitor::holdSources(given, sources);
     for (const auto& set : states) {

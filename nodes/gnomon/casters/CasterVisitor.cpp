@@ -33,12 +33,6 @@ bool neverCasts(const osg::Geode& geode) {
     return typeid(geode) != typeid(osg::Geode) && dynamic_cast<const NeverCasts*>(&geode);
 }
 
-bool followsTheView(const osg::Transform& transform) {
-    const osg::AutoTransform* turning = transform.asAutoTransform();
-    return turning &&
-           (turning->getAutoScaleToScreen() || turning->getAutoRotateMode() != osg::AutoTransform::NO_ROTATION);
-}
-
 /// A group that shows all its children, and does nothing else with them.
 bool showsAll(const osg::Node& node) {
     const std::type_info& type = typeid(node);
@@ -231,13 +225,14 @@ Casting CasterVisitor::castingOf(const osg::Drawable& drawable) {
     return _judge.of(getNodePath(), drawable, rootFromLocal(), _planes);
 }
 
-/// Planes that are given in the eye's frame are the view's.
+/// Planes that are given in the eye's frame are the view's: none in their place cuts nothing.
 void CasterVisitor::apply(osg::ClipNode& node) {
     const std::size_t before = _planes.size();
-    if (node.getReferenceFrame() == osg::ClipNode::RELATIVE_RF)
+    const bool ofEye = node.getReferenceFrame() != osg::ClipNode::RELATIVE_RF;
+    if (!ofEye || !_judge.cutsByViews())
         for (const auto& plane : node.getClipPlaneList())
             _planes.emplace_back(plane->getClipPlaneNum(),
-                                 osg::Matrixd::inverse(rootFromLocal()) * plane->getClipPlane());
+                                 ofEye ? osg::Vec4d() : osg::Matrixd::inverse(rootFromLocal()) * plane->getClipPlane());
     apply(static_cast<osg::Node&>(node));
     _planes.resize(before);
 }
@@ -275,15 +270,23 @@ void CasterVisitor::visitLevels(osg::LOD& lod) {
 }
 
 void CasterVisitor::visitPixelLevels(osg::LOD& lod) {
+    enterCullStack(eyeFromHere());
+    traverse(lod);
+    leaveCullStack();
+}
+
+void CasterVisitor::enterCullStack(const osg::Matrixd& eyeFromLocal) {
     if (!_cullStack) {
         _cullStack = std::make_unique<osg::CullStack>();
         _cullStack->setLODScale(_view->lodScale);
         _cullStack->pushViewport(_view->viewport);
         _cullStack->pushProjectionMatrix(new osg::RefMatrix(_view->projection));
     }
-    _cullStack->pushModelViewMatrix(new osg::RefMatrix(eyeFromHere()), osg::Transform::RELATIVE_RF);
+    _cullStack->pushModelViewMatrix(new osg::RefMatrix(eyeFromLocal), osg::Transform::RELATIVE_RF);
     ++_atPixelLevels;
-    traverse(lod);
+}
+
+void CasterVisitor::leaveCullStack() {
     --_atPixelLevels;
     _cullStack->popModelViewMatrix();
 }
@@ -295,10 +298,10 @@ void CasterVisitor::setView(const CasterView& view) {
 }
 
 /// Multiplied in the cull's order, for a view may stand where a level begins.
-osg::Matrixd CasterVisitor::eyeFromHere() const {
-    osg::Matrixd matrix = _view->eyeFromGroup;
-    for (const osg::Node* node : getNodePath())
-        if (const osg::Transform* transform = node->asTransform())
+osg::Matrixd CasterVisitor::eyeFrom(std::size_t end) const {
+    osg::Matrixd matrix = _turned.empty() ? _view->eyeFromGroup : _turned.back().second;
+    for (std::size_t at = _turned.empty() ? 0 : _turned.back().first; at < end; ++at)
+        if (const osg::Transform* transform = getNodePath()[at]->asTransform())
             transform->computeLocalToWorldMatrix(matrix, const_cast<CasterVisitor*>(this)); // which changes nothing
     return matrix;
 }
@@ -326,12 +329,48 @@ float CasterVisitor::getDistanceFromEyePoint(const osg::Vec3& place, bool useLOD
 }
 
 void CasterVisitor::apply(osg::Transform& transform) {
-    if (transform.getReferenceFrame() != osg::Transform::RELATIVE_RF || followsTheView(transform)) return;
+    if (transform.getReferenceFrame() != osg::Transform::RELATIVE_RF) return;
+    if (osg::AutoTransform* automatic = transform.asAutoTransform()) {
+        if (automatic->getAutoScaleToScreen()) return; // a label
+        if (automatic->getAutoRotateMode() != osg::AutoTransform::NO_ROTATION) return visitTurning(*automatic);
+    }
     osg::Matrixd matrix = _matrices.back();
     transform.computeLocalToWorldMatrix(matrix, this);
     _matrices.push_back(matrix);
     apply(static_cast<osg::Node&>(transform));
     _matrices.pop_back();
+}
+
+/// It asks for the view's CullStack, as in the cull.
+void CasterVisitor::visitTurning(osg::AutoTransform& transform) {
+    if (!_view || !_view->viewport || !isOnTheWay(transform)) return;
+    osg::Matrixd eye = eyeFrom(getNodePath().size() - 1), matrix = _matrices.back();
+    enterCullStack(eye);
+    transform.computeLocalToWorldMatrix(matrix, this);
+    transform.computeLocalToWorldMatrix(eye, this);
+    leaveCullStack();
+    _choice.mix(_view->key); // another view turns it otherwise
+    _matrices.push_back(matrix);
+    _turned.emplace_back(getNodePath().size(), eye);
+    apply(static_cast<osg::Node&>(transform));
+    _turned.pop_back();
+    _matrices.pop_back();
+}
+
+/// Each of its drawables turns by itself.
+void CasterVisitor::apply(osg::Billboard& billboard) {
+    if (!_view || !isOnTheWay(billboard)) return;
+    const OnTheWay here(*this, billboard);
+    const osg::Matrixd eye = eyeFromHere(), localFromEye = osg::Matrixd::inverse(eye);
+    _choice.mix(_view->key);
+    for (unsigned i = 0; i < std::min<std::size_t>(billboard.getNumDrawables(), billboard.getPositionList().size());
+         ++i) {
+        osg::Matrixd turned = eye;
+        billboard.computeMatrix(turned, localFromEye.getTrans(), billboard.getPosition(i));
+        _matrices.push_back(turned * localFromEye * _matrices.back());
+        billboard.getDrawable(i)->accept(*this);
+        _matrices.pop_back();
+    }
 }
 
 Hiding CasterVisitor::hiding() const {

@@ -4,6 +4,7 @@
 #include <gnomon/base/Fingerprint.h>
 #include <gnomon/casters/Casting.h>
 
+#include <osg/AutoTransform>
 #include <osg/CullStack>
 #include <osg/Matrixd>
 #include <osg/NodeVisitor>
@@ -14,13 +15,15 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gnomon {
 
-/// Walks to the drawables that can cast: those of a Selection, without techniques, cameras, projections, text and
-/// whatever turns or scales with the view (billboards, such AutoTransforms) or does not move with its parents (absolute
-/// transforms). Extraction (CasterExtraction) and change detection (CasterFingerprint) share it, so that they agree on what
+/// Walks to the drawables that can cast: those of a Selection, without techniques, cameras, projections, text,
+/// labels (AutoTransforms that keep their size on the screen) and what does not move with its parents (absolute
+/// transforms). What turns with the view (billboards, other AutoTransforms) stands as that view draws it; without a view it is
+/// left out. Extraction (CasterExtraction) and change detection (CasterFingerprint) share it, so that they agree on what
 /// a caster is.
 ///
 /// Cost    a visit of what is above and below the selected node; of all nodes where none is.
@@ -45,7 +48,7 @@ public:
     void apply(osg::LOD& lod) override;
     void apply(osg::Sequence& sequence) override;
     void apply(osg::Transform& transform) override;
-    void apply(osg::Billboard&) override {}
+    void apply(osg::Billboard& billboard) override;
     void apply(osg::Camera&) override {}
     void apply(osg::Projection&) override {}
 
@@ -100,7 +103,11 @@ private:
     bool goesTheOnlyWays(osg::Node& node);
     void visitLevels(osg::LOD& lod);
     void visitPixelLevels(osg::LOD& lod);
-    osg::Matrixd eyeFromHere() const;
+    void enterCullStack(const osg::Matrixd& eyeFromLocal);
+    void leaveCullStack();
+    void visitTurning(osg::AutoTransform& transform);
+    osg::Matrixd eyeFromHere() const { return eyeFrom(getNodePath().size()); }
+    osg::Matrixd eyeFrom(std::size_t end) const;
 
     const std::vector<osg::ref_ptr<osg::Node>> _selected; ///< empty: everything.
     const std::set<osg::Node*> _roots;                    ///< the same, each once.
@@ -109,7 +116,9 @@ private:
     std::optional<CasterView> _view;
     std::unique_ptr<osg::CullStack> _cullStack; ///< of the view; null until an LOD by pixels is met.
     int _atPixelLevels = 0;                     ///< how many of them are on the way down.
-    int _atLevels = 0;                          ///< how many LODs and sequences are on the way down.
+    std::vector<std::pair<std::size_t, osg::Matrixd>>
+        _turned;       ///< where the path goes on below an AutoTransform, and the eye.
+    int _atLevels = 0; ///< how many LODs and sequences are on the way down.
     Fingerprint _choice;
     int _inside = 0; ///< how often a selected node is on the way down.
     CastingJudge _judge;

@@ -83,7 +83,7 @@ bool removes(const A& attribute) {
         return box && isEmpty(*box);
     }
     default:
-        return false;
+        return mayApplyProgram(attribute);
     }
 }
 
@@ -177,7 +177,7 @@ struct CastingJudge::Resolved {
 private:
     void findBlend(const PathState& state, const CastingRule& rule);
     void findAlpha(const PathState& state);
-    void findClips(const PathState& state);
+    void findClips(const PathState& state, const CastingRule& rule);
 };
 
 CastingJudge::Resolved::Resolved(const PathState& state, const CastingRule& rule) {
@@ -188,7 +188,7 @@ CastingJudge::Resolved::Resolved(const PathState& state, const CastingRule& rule
         test = {function->getFunction() - osg::AlphaFunc::NEVER, // whose order this is
                 std::clamp(function->getReferenceValue(), 0.0f, 1.0f)};
     if (blends || test) findAlpha(state);
-    findClips(state);
+    findClips(state, rule);
     late = state.bin() >= transparentBin;
 }
 
@@ -213,7 +213,7 @@ void CastingJudge::Resolved::findBlend(const PathState& state, const CastingRule
 }
 
 void CastingJudge::Resolved::findAlpha(const PathState& state) {
-    programmed = state.program() != nullptr;
+    programmed = state.isProgrammed();
     if (programmed) return;
     const auto* lit = state.isOn(GL_LIGHTING, true) ? state.attribute<osg::Material>(A::MATERIAL) : nullptr;
     if (lit && !takesVertexColor(*lit)) material = lit->getDiffuse(osg::Material::FRONT).a();
@@ -229,7 +229,9 @@ void CastingJudge::Resolved::findAlpha(const PathState& state) {
     }
 }
 
-void CastingJudge::Resolved::findClips(const PathState& state) {
+void CastingJudge::Resolved::findClips(const PathState& all, const CastingRule& rule) {
+    if (rule.clips == CastingRule::None) return;
+    const PathState state = rule.clips == CastingRule::All ? all : all.ofMainGraph();
     for (unsigned number = 0; number < clipPlanes; ++number) {
         if (!state.isOn(GL_CLIP_PLANE0 + number)) continue;
         clipModes |= 1u << number;
@@ -265,7 +267,7 @@ const CastingJudge::Resolved& CastingJudge::resolved(const PathState& state) {
     _sets = state.sets();
     const auto now = std::make_shared<Resolved>(state, _rule.value_or(CastingRule()));
     const osg::Program* program = state.program();
-    now->discards = program && discards(*program);
+    now->discards = (program && discards(*program)) || state.hasUnseenProgram();
     if (state.isOn(fixedRestart))
         now->restart = ~0u;
     else if (state.isOn(GL_PRIMITIVE_RESTART)) {
@@ -421,9 +423,12 @@ void HidingState::apply(const osg::StateSet& set) {
                                 : type.first == A::DEPTH       ? &_depth
                                 : type.first == A::PROGRAM     ? &_program
                                                                : nullptr;
+        _unseen = _unseen || mayApplyProgram(*given.first);
         if (!now || (*now && ((*now)->second & A::OVERRIDE) && !(given.second & A::PROTECTED))) continue;
         *now = &given;
-        if (now == &_program) _discards = mayDiscard(*as<osg::Program>(_program));
+        if (now != &_program) continue;
+        const auto* program = dynamic_cast<const osg::Program*>(given.first.get());
+        _discards = program && mayDiscard(*program);
     }
     if (set.useRenderBinDetails()) _late = set.getBinNumber() >= firstLate;
 }
@@ -435,7 +440,7 @@ Hiding HidingState::hiding(bool mirrored) const {
     const bool solid = !(_late && isOn(_blend)) && !isOn(_alphaTest) && !isOn(_stipple) && isOn(_depthTest) &&
                        std::none_of(std::begin(_clip), std::end(_clip), isOn) && (!depth || isPlain(*depth)) &&
                        isFilled(polygons, osg::PolygonMode::FRONT) && isFilled(polygons, osg::PolygonMode::BACK) &&
-                       !_discards;
+                       !_discards && !_unseen;
     if (!solid) return Hiding::Neither;
     if (!isOn(_cull)) return Hiding::Both;
     const auto* face = as<osg::CullFace>(_face);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/base/Fingerprint.h>
+#include <gnomon/base/ProgramText.h>
 #include <gnomon/casters/DrawnAlpha.h>
 
 #include <osg/Drawable>
@@ -29,7 +30,24 @@ public:
     explicit PathState(const osg::NodePath& path) {
         for (const osg::Node* node : path) add(*node);
         if (path.empty()) return;
-        for (const osg::Node* node = path.front(); node->getNumParents() > 0;) add(*(node = node->getParent(0)), true);
+        std::size_t above = 0, ofViews = 0;
+        for (const osg::Node* node = path.front(); node->getNumParents() > 0;) {
+            node = node->getParent(0);
+            add(*node, true);
+            above += node->getStateSet() ? 1 : 0;
+            if (const_cast<osg::Node*>(node)->asCamera() && node->getNumParents() > 0) ofViews = above;
+        }
+        _endOfViews = above;
+        _views = ofViews;
+    }
+
+    /// Without the sets of nested cameras above the path, and of what is between them and the path.
+    PathState ofMainGraph() const {
+        PathState result = *this;
+        const auto end = result._sets.begin() + long(_endOfViews);
+        result._sets.erase(end - long(_views), end);
+        result._views = 0;
+        return result;
     }
 
     /// @param unset  where no state set gives the mode.
@@ -56,6 +74,20 @@ public:
         return static_cast<unsigned>(most);
     }
 
+    /// True if a program draws, whether its text is known or not.
+    bool isProgrammed() const { return program() || hasUnseenProgram(); }
+    /// True if an attribute in use may apply a program that is not known.
+    bool hasUnseenProgram() const {
+        for (const osg::StateSet* set : _sets)
+            for (const auto& [key, pair] : set->getAttributeList()) {
+                const auto& [type, member] = key;
+                const auto same = [type = type, member = member](const osg::StateSet& other) {
+                    return other.getAttributePair(type, member);
+                };
+                if (mayApplyProgram(*pair.first) && attributeBy(same) == pair.first.get()) return true;
+            }
+        return false;
+    }
     /// The program in use, which may do anything; null if there is none.
     const osg::Program* program() const {
         const auto* program = attribute<osg::Program>(osg::StateAttribute::PROGRAM);
@@ -103,6 +135,7 @@ private:
     }
 
     std::vector<const osg::StateSet*> _sets; // outermost first
+    std::size_t _endOfViews = 0, _views = 0; ///< of _sets, those of nested cameras: where they end, and how many.
 };
 
 /// Which sides of a caster's triangles hide what is behind them, in a view that draws it: their depth stands then.
@@ -129,8 +162,8 @@ private:
 
     Value _blend = 0, _alphaTest = 0, _cull = 0, _stipple = 0, _depthTest = osg::StateAttribute::ON;
     Value _clip[6] = {};
-    bool _late = false; ///< drawn in bin 8 or later.
-    bool _discards = false;
+    bool _late = false;                      ///< drawn in bin 8 or later.
+    bool _discards = false, _unseen = false; ///< by a program, whose text is known or not.
     const Attribute *_face = nullptr, *_front = nullptr, *_polygons = nullptr, *_depth = nullptr, *_program = nullptr;
 };
 
@@ -138,6 +171,12 @@ private:
 struct CastingRule {
     float opaqueFrom = 0.0f; ///< Alpha from which on parts of a blending drawable cast, 0 … 1. 0: all cast.
     float evenFrom = 0.0f;   ///< The same of a drawable that has one alpha all over, as glass and water have.
+    /// Which clip planes cut casters.
+    enum Clips {
+        OfGraph, ///< Not those of a nested camera, or between it and the group, or in the eye's frame: they are its view's.
+        All,
+        None
+    } clips = OfGraph;
 };
 
 /// A clip plane by OpenGL's number. Kept is what has no negative distance from it.
@@ -149,8 +188,8 @@ using NumberedPlane = std::pair<unsigned, osg::Vec4d>;
 ///   alpha below CastingRule::evenFrom; of what is culled on both sides, drawn as lines or points, masked away, cut off by an empty
 ///   scissor box, or stippled to less than half.
 /// - Of what has an alpha test or blends, the parts that pass the test, or have an alpha of CastingRule::opaqueFrom.
-/// - What clip planes leave.
-/// - Of what a program discards, nobody knows what is left but who draws it.
+/// - What clip planes leave, as CastingRule::clips has it.
+/// - Of what a program discards, or may discard where its text is not known, nobody knows what is left but who draws it.
 ///
 /// Light is not the camera: a face culled for the eye casts, and so does what a scissor box keeps out of a picture.
 ///
@@ -178,6 +217,8 @@ class CastingJudge {
 public:
     /// Without a rule, all cast whole: what is wanted is what there is.
     void setRule(const std::optional<CastingRule>& rule) { _rule = rule; }
+    /// True if planes in the eye's frame cut.
+    bool cutsByViews() const { return _rule && _rule->clips == CastingRule::All; }
     /// True if a state set may keep part of what is below it from casting, or from being read as it is.
     bool mayMatter(const osg::StateSet& set);
     /// The casting of the drawable at the end of a path, by the states along it and above it (by first parents).

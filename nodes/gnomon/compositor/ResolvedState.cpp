@@ -112,6 +112,17 @@ DepthPlacement depthPlacementOf(const osgUtil::StateGraph* graph) {
     return placement;
 }
 
+ProgramPlaces placesIn(const osgUtil::StateGraph* graph) {
+    for (const osgUtil::StateGraph* each = graph; each; each = each->_parent) {
+        if (!each->getStateSet()) continue;
+        for (const auto& [type, pair] : each->getStateSet()->getAttributeList())
+            if (mayApplyProgram(*pair.first) && resolvedAttribute(graph, type.first) == pair.first.get())
+                return {true, true, true, true};
+    }
+    const auto* program = resolved<osg::Program>(graph, osg::StateAttribute::PROGRAM);
+    return program && program->getNumShaders() > 0 ? placesOf(*program) : ProgramPlaces();
+}
+
 bool isShaded(const osgUtil::StateGraph* graph) {
     return isOn(graph, GL_LIGHTING) || resolvedAttribute(graph, osg::StateAttribute::PROGRAM);
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/base/ProgramText.h>
+
 #include <osg/StateAttribute>
 #include <osg/StateSet>
 #include <osg/Vec2d>
@@ -26,8 +28,12 @@ const osg::StateAttribute* resolvedAttribute(const osgUtil::StateGraph* graph, o
 
 template <typename Attribute>
 const Attribute* resolved(const osgUtil::StateGraph* graph, osg::StateAttribute::Type type) {
-    return static_cast<const Attribute*>(resolvedAttribute(graph, type));
+    return dynamic_cast<const Attribute*>(
+        resolvedAttribute(graph, type)); // a type is a number that others may take, too
 }
+
+/// What the program that draws so says of where, and what, it draws; nothing where none does.
+ProgramPlaces placesIn(const osgUtil::StateGraph* graph);
 
 /// True if what is drawn so leaves its depth: depth test and depth mask are on.
 bool writesDepth(const osgUtil::StateGraph* graph);

@@ -110,12 +110,8 @@ bool isSimple(const osg::Geometry& geometry) {
 }
 
 bool isDrawnPlainly(const osgUtil::StateGraph* graph) {
-    const auto* program = resolved<osg::Program>(graph, osg::StateAttribute::PROGRAM);
-    if (program && program->getNumShaders() > 0) {
-        const ProgramPlaces places = placesOf(*program);
-        if (places.movesVertices || places.setsDepth) return false;
-    }
-    return writesDepth(graph);
+    const ProgramPlaces places = placesIn(graph);
+    return !places.movesVertices && !places.setsDepth && writesDepth(graph);
 }
 
 } // namespace

@@ -134,7 +134,7 @@ std::string unshadowedCause(const TechniqueInStage& asked, const ShadowLight& li
 std::string whyNoPicture(const EnlistedTechnique& entry) {
     bool overrides = false;
     const auto* program =
-        static_cast<const osg::Program*>(resolvedAttribute(entry.state, osg::StateAttribute::PROGRAM, &overrides));
+        dynamic_cast<const osg::Program*>(resolvedAttribute(entry.state, osg::StateAttribute::PROGRAM, &overrides));
     if (!program || !overrides || program->getNumShaders() == 0) return {};
     for (unsigned i = 0; i < program->getNumShaders(); ++i) {
         const std::string& text = program->getShader(i)->getShaderSource();

@@ -94,10 +94,15 @@ struct ShadowBin::ViewCasters {
 /// Asked for once for all techniques that share a group and a view of it.
 const Casters& ShadowBin::castersOf(const EnlistedTechnique& entry, std::deque<ViewCasters>& known) {
     osgUtil::RenderStage& stage = *getStage();
-    const CasterView view{entry.eyeFromGroup,  *entry.projection,
-                          stage.getViewport(), entry.viewPoint,
-                          entry.lodScale,      &stage,
-                          entry.mask,          clipPlanesOf(stage, entry.eyeFromGroup)};
+    const CasterView view{
+        entry.eyeFromGroup,
+        *entry.projection,
+        stage.getViewport(),
+        entry.viewPoint,
+        entry.lodScale,
+        &stage,
+        entry.mask,
+        clipPlanesOf(stage, entry.eyeFromGroup, entry.group->getClipping() == ShadowCasterGroup::ALL)};
     const auto found = std::find_if(known.begin(), known.end(),
                                     [&](const ViewCasters& casters) { return casters.areOf(*entry.group, view); });
     if (found != known.end()) return *found->casters;

@@ -20,26 +20,31 @@ bool isLightNumber(int number, const char* method) {
     return false;
 }
 
-/// @param opaqueFrom  as ShadowCasterGroup::setOpaqueFrom() has it.
-CastingRule ruleOf(float opaqueFrom) {
-    return opaqueFrom < 0.0f ? CastingRule{0.5f, 1.0f} : CastingRule{opaqueFrom, opaqueFrom};
+/// What of a group's settings decides what casts.
+CastingRule ruleOf(const ShadowCasterGroup& group) {
+    const float from = group.getOpaqueFrom();
+    const auto clips = group.getClipping() == ShadowCasterGroup::ALL    ? CastingRule::All
+                       : group.getClipping() == ShadowCasterGroup::NONE ? CastingRule::None
+                                                                        : CastingRule::OfGraph;
+    return from < 0.0f ? CastingRule{0.5f, 1.0f, clips} : CastingRule{from, from, clips};
 }
 
 } // namespace
 
-ShadowCasterGroup::ShadowCasterGroup() : _table(new CasterTable) { _table->setRule(ruleOf(_opaqueFrom)); }
+ShadowCasterGroup::ShadowCasterGroup() : _table(new CasterTable) { _table->setRule(ruleOf(*this)); }
 
 ShadowCasterGroup::ShadowCasterGroup(const ShadowCasterGroup& other, const osg::CopyOp& copyOp)
     : osg::Group(other, copyOp),
       _casters(other._casters, other),
       _composite(other._composite),
+      _clipping(other._clipping),
       _dark(other._dark),
       _opaqueFrom(other._opaqueFrom),
       _lights(other._lights),
       _lightUniforms(other._lightUniforms),
       _options(other._options),
       _table(new CasterTable) {
-    _table->setRule(ruleOf(_opaqueFrom));
+    _table->setRule(ruleOf(*this));
     for (const ObservedNode& source : other._lightSources) _lightSources.emplace_back(source, other);
 }
 
@@ -71,7 +76,12 @@ void ShadowCasterGroup::setOpaqueFrom(float alpha) {
         return;
     }
     _opaqueFrom = alpha < 0.0f ? -1.0f : std::min(alpha, 1.0f);
-    _table->setRule(ruleOf(_opaqueFrom));
+    _table->setRule(ruleOf(*this));
+}
+
+void ShadowCasterGroup::setClipping(Clipping clipping) {
+    _clipping = clipping == ALL || clipping == NONE ? clipping : GRAPH;
+    _table->setRule(ruleOf(*this));
 }
 
 void ShadowCasterGroup::addLight(osg::LightSource* light) {

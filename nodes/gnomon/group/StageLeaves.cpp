@@ -10,11 +10,6 @@
 namespace gnomon {
 namespace {
 
-ProgramPlaces placesIn(const osgUtil::StateGraph* graph) {
-    const auto* program = resolved<osg::Program>(graph, osg::StateAttribute::PROGRAM);
-    return program ? placesOf(*program) : ProgramPlaces();
-}
-
 /// The leaf that casts and comes first; null if none does.
 const osgUtil::RenderLeaf* firstCaster(const ShadowCasterGroup& group, const std::vector<DrawnLeaf>& leaves,
                                        const osg::Matrixd& eyeFromWorld) {
@@ -48,12 +43,17 @@ ProgramCauses::ProgramCauses(osgUtil::RenderStage& stage) : _eyeFromWorld(*stage
     for (const DrawnLeaf& entry : leavesBelow(stage, std::numeric_limits<int>::max())) {
         const auto [places, isNew] = known.try_emplace(entry.leaf->_parent);
         if (isNew) places->second = placesIn(entry.leaf->_parent);
+        if (places->second.unseen) {
+            _unseen.push_back(entry);
+            continue;
+        }
         if (places->second.movesVertices && !drawsItself(*entry.leaf->_drawable)) _moving.push_back(entry);
         if (places->second.setsDepth) _setDepths.insert(entry.leaf);
     }
-    if (_moving.empty()) return;
+    if (_moving.empty() && _unseen.empty()) return;
     auto moved = std::make_shared<LeafSet>();
-    for (const DrawnLeaf& entry : _moving) moved->insert(entry.leaf);
+    for (const std::vector<DrawnLeaf>* leaves : {&_moving, &_unseen})
+        for (const DrawnLeaf& entry : *leaves) moved->insert(entry.leaf);
     _moved = moved;
 }
 
@@ -74,6 +74,21 @@ void ProgramCauses::report(const FrameReport& report, const ShadowCasterGroup& g
         report("the program of '" + nameOf(*moved) +
                "' moves its vertices, but it casts where its arrays stand. Take it out of the casters (setCasters(), "
                "--casters), and let a node that is never drawn cast in its place.");
+    if (const std::string name = firstUnseen(group, receiving, receivingLate); !name.empty())
+        report("a state attribute of '" + name +
+               "' may apply a program that cannot be read, as it is no osg::Program. Where that program moves vertices "
+               "or sets a depth, shadows are missing or wrong. Set an osg::Program, or leave the node out of casters "
+               "and receiver.");
+}
+
+std::string ProgramCauses::firstUnseen(const ShadowCasterGroup& group, const Leaves& receiving,
+                                       const Leaves& receivingLate) const {
+    if (_unseen.empty()) return {};
+    for (const DrawnLeaf& entry : _unseen)
+        for (const Leaves* leaves : {&receiving, &receivingLate})
+            if (std::find(leaves->begin(), leaves->end(), entry.leaf) != leaves->end()) return nameOf(*entry.leaf);
+    const osgUtil::RenderLeaf* caster = firstCaster(group, _unseen, _eyeFromWorld);
+    return caster ? nameOf(*caster) : std::string();
 }
 
 } // namespace gnomon

@@ -65,8 +65,11 @@ public:
     const std::shared_ptr<const LeafSet>& moved() const { return _moved; }
 
 private:
+    std::string firstUnseen(const ShadowCasterGroup& group, const Leaves& receiving, const Leaves& receivingLate) const;
+
     std::vector<DrawnLeaf> _moving;                  ///< Their program moves vertices.
-    std::shared_ptr<const LeafSet> _moved;           ///< The same, to be asked for by address.
+    std::vector<DrawnLeaf> _unseen;                  ///< Their program is not known.
+    std::shared_ptr<const LeafSet> _moved;           ///< Both, to be asked for by address.
     std::set<const osgUtil::RenderLeaf*> _setDepths; ///< Their program sets a depth of its own.
     osg::Matrixd _eyeFromWorld;
 };

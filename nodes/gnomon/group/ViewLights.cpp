@@ -158,14 +158,14 @@ void findSwitchedOff(const ShadowCasterGroup& group, osgUtil::RenderStage& stage
 
 } // namespace
 
-std::vector<NumberedPlane> clipPlanesOf(osgUtil::RenderStage& stage, const osg::Matrixd& eyeFromGroup) {
+std::vector<NumberedPlane> clipPlanesOf(osgUtil::RenderStage& stage, const osg::Matrixd& eyeFromGroup, bool all) {
     std::vector<NumberedPlane> planes;
     const double eye = osg::Matrixd::inverse(eyeFromGroup).getTrans().length();
     const auto collect = [&](osgUtil::PositionalStateContainer* container, const osg::Matrixd& eyeFromContainer) {
         if (!container) return;
         for (const auto& [attribute, containerFromPlane] : container->getAttrMatrixList()) {
             const auto* clip = dynamic_cast<const osg::ClipPlane*>(attribute.get());
-            if (!clip) continue;
+            if (!clip || !(containerFromPlane || all)) continue;
             const osg::Matrixd eyeFromPlane =
                 containerFromPlane ? *containerFromPlane * eyeFromContainer : eyeFromContainer;
             const osg::Vec4d plane = eyeFromGroup * (osg::Matrixd::inverse(eyeFromPlane) * clip->getClipPlane());
@@ -175,7 +175,8 @@ std::vector<NumberedPlane> clipPlanesOf(osgUtil::RenderStage& stage, const osg::
         }
     };
     collect(stage.getInheritedPositionalStateContainer(), stage.getInheritedPositionalStateContainerMatrix());
-    collect(stage.getPositionalStateContainer(), osg::Matrixd());
+    const bool isNested = stage.getCamera() && stage.getCamera()->getNumParents() > 0;
+    if (all || !isNested) collect(stage.getPositionalStateContainer(), osg::Matrixd());
     return planes;
 }
 

@@ -27,6 +27,7 @@ struct GroupLights {
 GroupLights lightsOf(const ShadowCasterGroup& group, const osg::Matrixd& eyeFromGroup, osgUtil::RenderStage& stage);
 
 /// After the whole cull: the clip planes of the ClipNodes of a stage, in the group's frame.
-std::vector<NumberedPlane> clipPlanesOf(osgUtil::RenderStage& stage, const osg::Matrixd& eyeFromGroup);
+/// @param all  false: not those of a nested camera's own stage, nor those in the eye's frame.
+std::vector<NumberedPlane> clipPlanesOf(osgUtil::RenderStage& stage, const osg::Matrixd& eyeFromGroup, bool all);
 
 } // namespace gnomon

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
+#include <gnomon/base/ProgramText.h>
 #include <gnomon/geometry/ScreenBounds.h>
 #include <gnomon/gl/SavedFramebuffers.h>
 #include <gnomon/gl/ShaderProgram.h>
@@ -253,6 +254,9 @@ private:
             glClipPlane(GL_CLIP_PLANE0 + number, inLocal.ptr());
             glEnable(GL_CLIP_PLANE0 + number);
         }
+        const auto* program = _state.getLastAppliedProgramObject();
+        for (unsigned i = 0; program && writesClipDistance(*program->getProgram()) && i < 8; ++i)
+            if (_state.getLastAppliedMode(GL_CLIP_PLANE0 + i)) glEnable(GL_CLIP_PLANE0 + i);
         if (_state.getUseModelViewAndProjectionUniforms()) _state.applyModelViewAndProjectionUniformsIfRequired();
         caster.drawing->drawable->draw(_renderInfo);
     }
