@@ -2,7 +2,9 @@
 // Programs that draw elsewhere than arrays and matrices say: what is said of them, and what serves instead.
 #include "Trial.h"
 
+#include <gnomon/ShadowMapTechnique.h>
 #include <osg/Program>
+#include <osg/ShaderAttribute>
 
 using namespace test;
 
@@ -49,6 +51,33 @@ Scene sceneOf(osg::Node* figure) {
     scene.content->addChild(figure);
     return scene;
 }
+
+/// Applies a program as osgEarth's VirtualProgram does: by a type of its own, or by a program's.
+class Virtual : public osg::StateAttribute {
+public:
+    explicit Virtual(osg::Program* what = nullptr, Type type = Type(10000)) : _program(what), _type(type) {}
+    Virtual(const Virtual& other, const osg::CopyOp& copyOp)
+        : osg::StateAttribute(other, copyOp), _program(other._program), _type(other._type) {}
+    osg::Object* cloneType() const override { return new Virtual(nullptr, _type); }
+    osg::Object* clone(const osg::CopyOp& copyOp) const override { return new Virtual(*this, copyOp); }
+    bool isSameKindAs(const osg::Object* other) const override { return dynamic_cast<const Virtual*>(other); }
+    const char* libraryName() const override { return "test"; }
+    const char* className() const override { return "Virtual"; }
+    Type getType() const override { return _type; }
+    int compare(const osg::StateAttribute& other) const override { return this == &other ? 0 : this < &other ? -1 : 1; }
+    void releaseGLObjects(osg::State* state) const override {
+        if (_program) _program->releaseGLObjects(state);
+    }
+    void apply(osg::State& state) const override {
+        if (_program) return _program->apply(state);
+        state.get<osg::GLExtensions>()->glUseProgram(0);
+        state.setLastAppliedProgramObject(nullptr);
+    }
+
+private:
+    osg::ref_ptr<osg::Program> _program;
+    const Type _type;
+};
 
 bool has(const std::vector<std::string>& causes, const std::string& text) {
     return std::any_of(causes.begin(), causes.end(), [&](const auto& c) { return c.find(text) != std::string::npos; });
@@ -135,5 +164,52 @@ TEST(ProgramPlacesOfReceivers, AGroundThatAProgramLowersHasTheShadowOfOneThatLie
         const int shadowed = expected.different(lit);
         EXPECT_GT(shadowed, 100) << spec;
         EXPECT_LE(render(lowered.root, view).different(expected), spec[0] == 'm' ? shadowed / 5 : 0) << spec;
+    }
+}
+
+TEST_P(ProgramPlaces, AnAttributeThatMayApplyAProgramIsNamed) {
+    Moving moving;
+    const osg::ref_ptr<osg::Program> program = vertexProgram(displacing);
+    const osg::ref_ptr<osg::ShaderAttribute> composed = new osg::ShaderAttribute;
+    composed->setType(osg::StateAttribute::HINT);
+    const osg::ref_ptr<osg::StateAttribute> attributes[] = {
+        new Virtual(program), new Virtual(program, osg::StateAttribute::PROGRAM), composed};
+    for (const auto& attribute : attributes) {
+        moving.box->setStateSet(nullptr);
+        moving.box->getOrCreateStateSet()->setAttribute(attribute);
+        EXPECT_TRUE(has(moving.causes(), "a state attribute of 'figure' may apply a program"))
+            << attribute->className();
+        moving.box->getStateSet()->setAttribute(new osg::Program, osg::StateAttribute::ON);
+        moving.box->getStateSet()->removeAttribute(attribute);
+        EXPECT_TRUE(moving.causes().empty()) << attribute->className();
+    }
+}
+
+/// A roof of which x < -1 is cut off: it is drawn into the map by itself, whoever applies the program.
+TEST(ProgramsInMaps, CutAsTheyDoInTheView) {
+    const std::string vertex = "#version 130\nout float x; void main() { x = gl_Vertex.x; gl_FrontColor = gl_Color;\n"
+                               "gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex; ";
+    const osg::ref_ptr<osg::Program> holes = new osg::Program, cut = new osg::Program;
+    holes->addShader(new osg::Shader(osg::Shader::VERTEX, vertex + "}"));
+    holes->addShader(new osg::Shader(osg::Shader::FRAGMENT, "#version 130\nin float x; void main() {\n"
+                                                            "if (x < -1.0) discard; gl_FragColor = gl_Color; }"));
+    cut->addShader(new osg::Shader(osg::Shader::VERTEX, vertex + "gl_ClipDistance[0] = x + 1.0; }"));
+    const View view = fromAbove(4.0, 128);
+    const Mesh roof = moved(square(1.0, 1.0), {-1.0, 0.0, 0.0}),
+               left = quad({-1.0, -1.0, 1.0}, {1.0, 0.0, 0.0}, {0.0, 2.0, 0.0});
+    const osg::ref_ptr<osg::StateAttribute> attributes[] = {
+        new Virtual(holes), new Virtual(holes, osg::StateAttribute::PROGRAM), holes, cut};
+    for (const auto& attribute : attributes) {
+        const osg::ref_ptr<osg::Geode> figure = node(roof, "figure");
+        figure->getOrCreateStateSet()->setAttribute(attribute);
+        figure->getOrCreateStateSet()->setMode(GL_CLIP_PLANE0, attribute == cut ? 1 : 0);
+        Scene lit = sceneOf(figure), dark = sceneOf(figure), scene = sceneOf(figure);
+        dark.takeLightAway();
+        const osg::ref_ptr<gnomon::ShadowTechnique> map = new gnomon::ShadowMapTechnique;
+        map->setReceiver({find(*scene.root, "ground")});
+        scene.addShadow(map);
+        const Truth truth{render(lit.root, view), render(dark.root, view),
+                          castRays(square(8.0), {left}, {1.0, 0.0, 1.0, 0.0}, view), 2};
+        EXPECT_TRUE(shows(render(scene.root, view), truth)) << attribute->className() << " " << attribute->getType();
     }
 }

@@ -4,6 +4,7 @@
 #include <gnomon/base/ProgramText.h>
 #include <gnomon/casters/DrawnAlpha.h>
 
+#include <osg/Camera>
 #include <osg/Drawable>
 #include <osg/Matrixd>
 #include <osg/Node>
@@ -35,7 +36,7 @@ public:
             node = node->getParent(0);
             add(*node, true);
             above += node->getStateSet() ? 1 : 0;
-            if (const_cast<osg::Node*>(node)->asCamera() && node->getNumParents() > 0) ofViews = above;
+            if (isNested(node->asCamera())) ofViews = above;
         }
         _endOfViews = above;
         _views = ofViews;
@@ -108,6 +109,11 @@ public:
 private:
     void add(const osg::Node& node, bool above = false) {
         if (node.getStateSet()) _sets.insert(above ? _sets.begin() : _sets.end(), node.getStateSet());
+    }
+
+    /// A main one has no parents. One that draws before the rest may be left without them for a while.
+    static bool isNested(const osg::Camera* camera) {
+        return camera && (camera->getNumParents() > 0 || camera->getRenderOrder() == osg::Camera::PRE_RENDER);
     }
 
     template <class Get>
