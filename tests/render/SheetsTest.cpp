@@ -122,6 +122,7 @@ test::Comparison compared(const std::function<Scene()>& build, gnomon::ShadowTec
     Scene lit = build(), dark = build(), scene = build();
     dark.takeLightAway();
     scene.addShadow(technique);
+    scene.group->setOpaqueFrom(0.5f); // which the pane has
     test::reserving(scene.root, reserved);
     test::Camera camera(scene.root, view), litCamera(lit.root, view), darkCamera(dark.root, view);
     for (test::Camera* each : {&camera, &litCamera, &darkCamera}) each->viewer().getCamera()->setCullMask(1);
@@ -193,7 +194,6 @@ TEST(Sheets, ThatOneLooksThroughShadowWhatIsBehindThem) {
             for (const bool pane : {true, false}) {
                 const auto build = [&] {
                     Scene scene = test::scene(light);
-                    scene.group->setOpaqueFrom(0.5f); // which such a pane has
                     scene.content->addChild(test::node(ground));
                     scene.content->addChild(test::node(post));
                     const osg::ref_ptr<osg::Node> node = test::node(caster);
