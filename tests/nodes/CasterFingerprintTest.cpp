@@ -187,6 +187,34 @@ TEST(CasterRevisionChanges, WithPrimitivesDirtiedResizedMovedReplacedOrOfAnother
                                    [&] { geometry->removePrimitiveSet(0); }});
 }
 
+TEST(CasterRevisionChanges, WithVerticesAndIndicesEditedWhereThereIsNeitherListNorBuffer) {
+    const osg::ref_ptr<osg::Geometry> geometry =
+        geometryOf(vec3s({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0.5, 0.5, 0}}),
+                   new osg::DrawElementsUInt(Mode::TRIANGLES, 6, std::array<GLuint, 6>{0, 1, 4, 2, 3, 4}.data()));
+    auto& elements = static_cast<osg::DrawElementsUInt&>(*geometry->getPrimitiveSet(0));
+    geometry->setUseDisplayList(false);
+    Watched watched(geometry.get());
+    expectChangeWithEach(watched, {[&] { verticesOf(*geometry)[4].x() = 0.25f; }, [&] { elements[5] = 0; }});
+    geometry->setUseDisplayList(true);
+    geometry->setDataVariance(osg::Object::DYNAMIC);
+    EXPECT_FALSE(watched.changed());
+    expectChangeWithEach(watched, {[&] { verticesOf(*geometry)[4].x() = 0.5f; }});
+    geometry->setUseVertexBufferObjects(true); // whose copy only a count renews: the picture stays, too
+    watched.changed();
+    verticesOf(*geometry)[4].x() = 0.75f;
+    EXPECT_FALSE(watched.changed());
+    expectChangeWithEach(watched, {[&] { verticesOf(*geometry).dirty(); }});
+}
+
+TEST(CasterRevisionChanges, WithTheBoundsOfAGeometry) {
+    const osg::ref_ptr<osg::Geometry> geometry = indexed();
+    Watched watched(geometry.get());
+    expectChangeWithEach(watched, {[&] {
+                             verticesOf(*geometry)[2].z() = 2.0f;
+                             geometry->dirtyBound();
+                         }});
+}
+
 TEST(CasterRevisionChanges, WithTheShapeOfAShapeDrawable) {
     // Its arrays are deleted before the new ones, of the same sizes, are made: an allocator may well give the same
     // places.

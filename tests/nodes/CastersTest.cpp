@@ -70,6 +70,26 @@ TEST(Casters, AreTheSameAsLongAsNothingChanges) {
     EXPECT_EQ(row.now(first), first);
 }
 
+/// A list is an id, here of no context. What is edited is inside the bounds.
+TEST(Casters, AreReadAgainOnceADisplayListIsReleased) {
+    const osg::ref_ptr<osg::Geometry> geometry = triangle(0.0f);
+    auto& vertices = static_cast<osg::Vec3Array&>(*geometry->getVertexArray());
+    vertices.push_back({0.5f, 0.5f, 0.0f});
+    const auto now = [&](const osg::ref_ptr<const Casters>& known) { return Casters::of(*geometry, {}, known); };
+    auto known = now(nullptr);
+    for (int edit = 0; edit < 3; ++edit) {
+        vertices[3].x() *= 0.5f; // before the second visit, too
+        const auto edited = now(known);
+        EXPECT_NE(edited, known) << edit;
+        EXPECT_EQ(now(edited), edited) << edit;
+        geometry->getDisplayList(0) = 1;
+        EXPECT_EQ(now(edited), edited) << edit;
+        geometry->getDisplayList(0) = 0;
+        EXPECT_EQ(now(edited), edited) << "released, but as before";
+        known = edited;
+    }
+}
+
 TEST(Casters, OfAChangeAreNewOnlyWhereItIs) {
     Row row;
     auto known = row.now(nullptr);

@@ -49,6 +49,30 @@ void putATransformOver(Scene& scene) {
     over->addChild(caster);
 }
 
+osg::Geometry& geometryOf(osg::Node& node) { return *node.asGeode()->getDrawable(0)->asGeometry(); }
+
+/// Draws, and hands out, one of two bodies within the bounds of both, as what poses itself does.
+class Posing : public osg::Drawable {
+public:
+    Posing() { setUseDisplayList(false); }
+    Posing(const Posing& other, const osg::CopyOp& copyOp) : osg::Drawable(other, copyOp), now(other.now) {}
+    META_Object(test, Posing)
+
+    void drawImplementation(osg::RenderInfo& info) const override { bodies[now]->drawImplementation(info); }
+    bool supports(const osg::PrimitiveFunctor&) const override { return true; }
+    void accept(osg::PrimitiveFunctor& functor) const override { bodies[now]->accept(functor); }
+    osg::BoundingBox computeBoundingBox() const override {
+        osg::BoundingBox all = bodies[0]->getBoundingBox();
+        all.expandBy(bodies[1]->getBoundingBox());
+        return all;
+    }
+    int now = 0;
+
+private:
+    const osg::ref_ptr<osg::Node> _nodes[2] = {node(left), node(right)};
+    osg::Geometry* bodies[2] = {&geometryOf(*_nodes[0]), &geometryOf(*_nodes[1])};
+};
+
 GNOMON_BY_TECHNIQUE(Frame20);
 GNOMON_BY_TECHNIQUE(Frame500);
 GNOMON_BY_TECHNIQUE(MovedTransform);
@@ -64,6 +88,31 @@ TEST_P(Frame20, SeesAnArrayThatWasChangedAndDirtied) {
                           find(*scene.root, "caster")->asGeode()->getDrawable(0)->dirtyGLObjects();
                       },
                       {right});
+}
+
+TEST_P(Frame20, SeesVerticesThatWereEditedAndTheirListReleased) {
+    expectSeenInFrame(20,
+                      [](Scene& scene) {
+                          osg::Geometry& body = geometryOf(*find(*scene.root, "caster"));
+                          for (osg::Vec3& vertex : static_cast<osg::Vec3Array&>(*body.getVertexArray()))
+                              vertex.x() += 3.0f;
+                          body.dirtyBound();
+                          body.dirtyGLObjects();
+                      },
+                      {right});
+}
+
+TEST_P(Frame20, SeesWhatPosesItselfInsideItsBounds) {
+    Scene scene = casting({}).buildWithShadow();
+    const osg::ref_ptr<Posing> body = new Posing;
+    const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
+    geode->addDrawable(body);
+    scene.content->addChild(geode);
+    Camera camera(scene.root, fromAbove(4.0, 64));
+    for (int frame = 1; frame < 20; ++frame) camera.viewer().frame();
+    EXPECT_TRUE(shows(camera.frame(), truthOf(casting({left}))));
+    body->now = 1;
+    EXPECT_TRUE(shows(camera.frame(), truthOf(casting({right}))));
 }
 
 TEST_P(Frame20, SeesATransformPutOverACaster) { expectSeenInFrame(20, putATransformOver, {right}); }

@@ -2,6 +2,7 @@
 #pragma once
 #include <osg/Matrixd>
 
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
@@ -25,6 +26,23 @@ public:
     void mix(const void* address) { mix(std::uint64_t{reinterpret_cast<std::uintptr_t>(address)}); }
     void mix(const osg::Matrixd& matrix) {
         for (int i = 0; i < 16; ++i) mix(matrix.ptr()[i]);
+    }
+    /// In four ways side by side, for each step waits for the one before.
+    void mixBytes(const void* data, std::size_t size) {
+        const auto* at = static_cast<const unsigned char*>(data);
+        Fingerprint ways[4];
+        std::uint64_t words[4];
+        const auto mixWords = [&] {
+            for (int i = 0; i < 4; ++i) ways[i].mix(words[i]);
+        };
+        for (; size >= sizeof words; at += sizeof words, size -= sizeof words) {
+            std::memcpy(words, at, sizeof words);
+            mixWords();
+        }
+        std::memset(words, 0, sizeof words);
+        std::memcpy(words, at, size);
+        mixWords();
+        for (const Fingerprint& way : ways) mix(way.value());
     }
     std::uint64_t value() const { return _hash; }
 

@@ -51,8 +51,7 @@ bool isBody(const Caster& piece) {
 
 SelfDrawing::SelfDrawing(const osg::NodePath& path, const osg::Drawable& given, const osg::Matrixd& matrix,
                          const Casting& what)
-    : fingerprint(fingerprintOf(path, given, matrix, what)),
-      drawable(&given),
+    : drawable(&given),
       groupFromLocal(matrix),
       states(statesAlong(path)),
       name(nameAlong(path)),
@@ -69,9 +68,9 @@ SelfDrawing::SelfDrawing(const osg::NodePath& path, const osg::Drawable& given, 
 }
 
 std::uint64_t SelfDrawing::fingerprintOf(const osg::NodePath& path, const osg::Drawable& drawable,
-                                         const osg::Matrixd& groupFromLocal, const Casting& casting) {
+                                         std::uint64_t placed) {
     Fingerprint result;
-    result.mix(CasterFingerprint::of(drawable, groupFromLocal, casting));
+    result.mix(placed);
     result.mix(static_cast<const void*>(&drawable));
     result.mix(std::uint64_t{changesUnseen(drawable)});
     for (const auto& set : statesAlong(path)) mixState(*set, result);

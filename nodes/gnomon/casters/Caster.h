@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/casters/Casting.h>
+#include <gnomon/casters/DrawableContents.h>
 
 #include <osg/BoundingBox>
 #include <osg/Drawable>
@@ -27,6 +28,8 @@ class CasterMesh;
 struct Caster : public osg::Referenced {
     std::uint64_t fingerprint = 0;              ///< Changes with all that CasterExtraction reads of it.
     std::uint64_t geometry = 0;                 ///< The same, wherever it is.
+    std::uint64_t contents = 0;                 ///< See contentsOf(); 0 if counts tell.
+    mutable ListWatch list;                     ///< The visitor that makes casters keeps it here, under a lock.
     osg::ref_ptr<const osg::Drawable> drawable; ///< The drawable itself.
     osg::Matrixd groupFromLocal;                ///< Transform from the drawable's frame to the group's.
     Hiding hiding = Hiding::Both;               ///< What it hides in the view.
@@ -63,11 +66,13 @@ struct SelfDrawing : public osg::Referenced {
     SelfDrawing(const osg::NodePath& path, const osg::Drawable& drawable, const osg::Matrixd& groupFromLocal,
                 const Casting& casting);
 
-    /// Changes with all that is known to change the drawing.
-    static std::uint64_t fingerprintOf(const osg::NodePath& path, const osg::Drawable& drawable,
-                                       const osg::Matrixd& groupFromLocal, const Casting& casting);
+    /// Of all that is known to change the drawing, but for the edition.
+    /// @param placed  of its geometry, see CasterFingerprint.
+    static std::uint64_t fingerprintOf(const osg::NodePath& path, const osg::Drawable& drawable, std::uint64_t placed);
 
-    const std::uint64_t fingerprint;
+    std::uint64_t fingerprint = 0;
+    unsigned edition = 0;   ///< how often its list was released.
+    mutable ListWatch list; ///< as Caster has it.
     const osg::ref_ptr<const osg::Drawable> drawable;
     const osg::Matrixd groupFromLocal;
     const std::vector<osg::ref_ptr<osg::StateSet>> states; ///< Along the path and above it, the outermost first.

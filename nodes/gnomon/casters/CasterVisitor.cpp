@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/CasterMarkers.h>
 #include <gnomon/casters/CasterVisitor.h>
+#include <gnomon/casters/DrawableContents.h>
 #include <gnomon/casters/DrawableTriangles.h>
 
 #include <osg/AutoTransform>
@@ -91,9 +92,8 @@ void mixGeometry(const osg::Geometry& geometry, const osg::Array* vertices, Fing
 
 void mixBounds(const osg::Drawable& drawable, Fingerprint& into) {
     const osg::BoundingBox& bounds = drawable.getBoundingBox();
-    into.mix(static_cast<const void*>(&drawable));
-    for (int i = 0; i < 3; ++i) into.mix(double{bounds._min[i]});
-    for (int i = 0; i < 3; ++i) into.mix(double{bounds._max[i]});
+    into.mixBytes(bounds._min.ptr(), sizeof bounds._min);
+    into.mixBytes(bounds._max.ptr(), sizeof bounds._max);
 }
 
 } // namespace
@@ -405,13 +405,23 @@ void CasterFingerprint::reset() {
     _fingerprint = Fingerprint();
 }
 
-std::uint64_t CasterFingerprint::ofGeometry(const osg::Drawable& drawable, const Casting& casting) {
+std::uint64_t CasterFingerprint::of(const osg::Drawable& drawable, const osg::Matrixd& rootFromLocal,
+                                    const Casting& casting) {
+    const bool isRead = followsOf(drawable) == Follows::Each;
+    return placed(ofGeometry(drawable, casting, isRead ? contentsOf(drawable, casting.looksAtAll()) : 0),
+                  rootFromLocal);
+}
+
+std::uint64_t CasterFingerprint::ofGeometry(const osg::Drawable& drawable, const Casting& casting,
+                                            std::uint64_t contents) {
     Fingerprint result;
     result.mix(std::uint64_t{cutsQuadsFromFirst()});
+    result.mix(contents);
+    mixBounds(drawable, result);
     if (const osg::Geometry* geometry = drawable.asGeometry())
         mixGeometry(*geometry, verticesOf(*geometry), result);
     else
-        mixBounds(drawable, result);
+        result.mix(static_cast<const void*>(&drawable));
     casting.mix(drawable, result);
     return result.value();
 }

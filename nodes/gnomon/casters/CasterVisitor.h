@@ -145,9 +145,9 @@ std::string nameAlong(const osg::NodePath& path);
 /// Arrays are told apart by address. Compare a value only with one whose CasterMesh (or CasterExtraction) is still held:
 /// it keeps the arrays it was made of, so that no later array can stand at the same place.
 ///
-/// Cost    a visit of the casters' nodes (not of their vertices); no allocation once warm.
-/// Limits  arrays and primitives changed in place must be dirty()'d, as OpenSceneGraph asks; a change of size shows by
-///         itself. Drawables that are not a Geometry count by address and bounds.
+/// Cost    a visit of the casters' nodes; of their vertices where Follows::Each says so. No allocation once warm.
+/// Limits  arrays and primitives changed in place must be dirty()'d, as OpenSceneGraph asks; a change of size or bounds
+///         shows by itself, and so does any where there are neither lists nor buffers.
 class CasterFingerprint : public CasterVisitor {
 public:
     explicit CasterFingerprint(const Selection& selection = {});
@@ -158,11 +158,9 @@ public:
     std::uint64_t value() const { return _fingerprint.value(); }
 
     /// Of what CasterExtraction would read of one drawable.
-    static std::uint64_t of(const osg::Drawable& drawable, const osg::Matrixd& rootFromLocal, const Casting& casting) {
-        return placed(ofGeometry(drawable, casting), rootFromLocal);
-    }
-    /// The same, wherever it is.
-    static std::uint64_t ofGeometry(const osg::Drawable& drawable, const Casting& casting);
+    static std::uint64_t of(const osg::Drawable& drawable, const osg::Matrixd& rootFromLocal, const Casting& casting);
+    /// The same, wherever it is. @param contents  see contentsOf(); 0 if its counts tell.
+    static std::uint64_t ofGeometry(const osg::Drawable& drawable, const Casting& casting, std::uint64_t contents);
     /// Of a geometry, at a place.
     static std::uint64_t placed(std::uint64_t geometry, const osg::Matrixd& rootFromLocal);
 

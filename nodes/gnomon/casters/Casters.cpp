@@ -7,6 +7,8 @@
 #include <gnomon/casters/DrawableTriangles.h>
 #include <gnomon/casters/KnownCasters.h>
 
+#include <osg/GraphicsContext>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -82,27 +84,55 @@ public:
 
 protected:
     void applyCaster(osg::Drawable& drawable, const Casting& casting) override {
-        const std::uint64_t geometry = CasterFingerprint::ofGeometry(drawable, casting);
+        const std::uint64_t geometry = CasterFingerprint::ofGeometry(drawable, casting, contents(drawable, casting));
         Fingerprint placed;
         placed.mix(CasterFingerprint::placed(geometry, rootFromLocal()));
         placed.mix(static_cast<std::uint64_t>(hiding()));
         const std::uint64_t value = placed.value();
         _fingerprint.mix(value);
-        if (pieceOf(drawable, casting, geometry, value).selfDrawn) applySelfDrawing(drawable, casting);
+        if (pieceOf(drawable, casting, geometry, value).selfDrawn) addSelfDrawing(drawable, casting, value);
     }
 
-    /// In the old order as a rule.
     void applySelfDrawing(osg::Drawable& drawable, const Casting& casting) override {
-        const std::uint64_t value = SelfDrawing::fingerprintOf(getNodePath(), drawable, rootFromLocal(), casting);
-        _fingerprint.mix(value);
-        const std::size_t place = _selfDrawings.size();
-        if (place < _knownSelfDrawings.size() && _knownSelfDrawings[place]->fingerprint == value)
-            _selfDrawings.push_back(_knownSelfDrawings[place]);
-        else
-            _selfDrawings.push_back(new SelfDrawing(getNodePath(), drawable, rootFromLocal(), casting));
+        const std::uint64_t contents = followsOf(drawable) == Follows::Each ? contentsOf(drawable, true) : 0;
+        const std::uint64_t geometry = CasterFingerprint::ofGeometry(drawable, casting, contents);
+        addSelfDrawing(drawable, casting, CasterFingerprint::placed(geometry, rootFromLocal()));
     }
 
 private:
+    /// In the old order as a rule. Of what hands out no triangles, a list that is released counts as changed.
+    void addSelfDrawing(const osg::Drawable& drawable, const Casting& casting, std::uint64_t placed) {
+        const std::size_t place = _selfDrawings.size();
+        const SelfDrawing* known = place < _knownSelfDrawings.size() ? _knownSelfDrawings[place].get() : nullptr;
+        if (known && known->drawable != &drawable) known = nullptr;
+        unsigned edition = known ? known->edition : 0;
+        if (known && !known->hasPiece && followsOf(drawable) == Follows::List)
+            edition += known->list.mayBeStale(drawable, _contexts) ? 1 : 0;
+        Fingerprint value;
+        value.mix(SelfDrawing::fingerprintOf(getNodePath(), drawable, placed));
+        value.mix(std::uint64_t{edition});
+        _fingerprint.mix(value.value());
+        if (known && known->fingerprint == value.value()) return _selfDrawings.push_back(_knownSelfDrawings[place]);
+        const osg::ref_ptr<SelfDrawing> made = new SelfDrawing(getNodePath(), drawable, rootFromLocal(), casting);
+        made->fingerprint = value.value();
+        made->edition = edition;
+        _selfDrawings.push_back(made);
+    }
+
+    /// Of a drawable with a list, as the piece has them that was made of it, until the list is released. Where that piece
+    /// is not the next one they are read again.
+    std::uint64_t contents(const osg::Drawable& drawable, const Casting& casting) {
+        const Follows follows = followsOf(drawable);
+        if (follows == Follows::Counts) return _contents = 0;
+        const Caster* known = _next < _known.size() ? _known[_next].get() : nullptr;
+        if (known && known->drawable != &drawable) known = nullptr;
+        if (follows == Follows::List && known && !known->list.mayBeStale(drawable, _contexts))
+            return _contents = known->contents;
+        const auto [read, isNew] = _read.try_emplace(&drawable);
+        if (isNew) read->second = contentsOf(drawable, casting.looksAtAll());
+        return _contents = read->second;
+    }
+
     const Caster& pieceOf(osg::Drawable& drawable, const Casting& casting, std::uint64_t geometry,
                           std::uint64_t value) {
         if (!_changed && isAt(_next, value)) {
@@ -156,6 +186,7 @@ private:
         osg::ref_ptr<Caster> piece = new Caster;
         piece->fingerprint = fingerprint;
         piece->geometry = geometry;
+        piece->contents = _contents;
         piece->drawable = &drawable;
         piece->groupFromLocal = rootFromLocal();
         piece->hiding = hiding();
@@ -220,6 +251,9 @@ private:
     CasterList _met;
     std::unordered_map<std::uint64_t, std::size_t> _places;
     std::unordered_map<const osg::Texture2D*, osg::ref_ptr<const TextureAlpha>> _alphas;
+    std::unordered_map<const osg::Drawable*, std::uint64_t> _read; ///< contents, however often a drawable is met.
+    const unsigned _contexts = osg::GraphicsContext::getMaxContextID() + 1;
+    std::uint64_t _contents = 0; ///< of the drawable being visited.
     std::size_t _same = 0, _next = 0;
     bool _changed = false, _missed = false;
     Fingerprint _fingerprint;

@@ -212,6 +212,8 @@ struct Casting {
 
     /// True if it casts by all its triangles, though some may be clear in part.
     bool isWhole() const { return casts && !test && clips.empty(); }
+    /// True if more than vertices decides what is left.
+    bool looksAtAll() const { return selfDrawn || test; }
     /// Mixes in everything that decides what is left of a drawable.
     void mix(const osg::Drawable& drawable, Fingerprint& into) const;
     /// Adds the objects that mix() identifies by address.
