@@ -6,32 +6,19 @@
 #include <gnomon/casters/DrawableTriangles.h>
 #include <gnomon/rays/Placement.h>
 
+#include <osg/Geometry>
+
 #include <algorithm>
 
 namespace gnomon {
 namespace {
 
-using States = std::vector<osg::ref_ptr<osg::StateSet>>;
-
-/// By first parents above the path.
-States statesAlong(const osg::NodePath& path) {
-    States states;
-    const auto add = [&states](const osg::Node& node) {
-        if (node.getStateSet()) states.emplace_back(const_cast<osg::StateSet*>(node.getStateSet()));
-    };
-    for (auto node = path.rbegin(); node != path.rend(); ++node) add(**node);
-    for (const osg::Node* node = path.front(); node->getNumParents() > 0;) add(*(node = node->getParent(0)));
-    std::reverse(states.begin(), states.end());
-    return states;
-}
-
-void mixState(const osg::StateSet& set, Fingerprint& into) {
-    into.mix(static_cast<const void*>(&set));
-    for (const auto& [type, attribute] : set.getAttributeList())
-        into.mix(static_cast<const void*>(attribute.first.get()));
-    for (const auto& [name, uniform] : set.getUniformList()) {
-        into.mix(static_cast<const void*>(uniform.first.get()));
-        into.mix(std::uint64_t{uniform.first->getModifiedCount()});
+void mixArrays(const osg::Geometry& geometry, Fingerprint& into) {
+    osg::Geometry::ArrayList arrays;
+    geometry.getArrayList(arrays);
+    for (const auto& array : arrays) {
+        into.mix(static_cast<const void*>(array.get()));
+        into.mix(std::uint64_t{array->getModifiedCount()});
     }
 }
 
@@ -49,31 +36,43 @@ bool isBody(const Caster& piece) {
            isPlacement(toGlm(piece.groupFromLocal));
 }
 
+DrawnStates SelfDrawing::statesAlong(const osg::NodePath& path) {
+    DrawnStates states;
+    const auto add = [&states](const osg::Node& node) {
+        if (node.getStateSet()) states.emplace_back(const_cast<osg::StateSet*>(node.getStateSet()));
+    };
+    for (auto node = path.rbegin(); node != path.rend(); ++node) add(**node);
+    for (const osg::Node* node = path.front(); node->getNumParents() > 0;) add(*(node = node->getParent(0)));
+    std::reverse(states.begin(), states.end());
+    return states;
+}
+
 SelfDrawing::SelfDrawing(const osg::NodePath& path, const osg::Drawable& given, const osg::Matrixd& matrix,
                          const Casting& what)
     : drawable(&given),
       groupFromLocal(matrix),
       states(statesAlong(path)),
+      images(states),
       name(nameAlong(path)),
       bounds(placedBox(given.getBoundingBox(), matrix)),
       casting(what),
       hasPiece(hasTriangles(given) && !drawsItself(given)),
       byProgram(PathState(path).isProgrammed()),
-      mayChange(changesUnseen(given)) {
+      mayChange(changesUnseen(given) || changesUnseen(states)) {
     CasterVisitor::holdSources(given, sources);
-    for (const auto& set : states) {
-        for (const auto& [type, attribute] : set->getAttributeList()) sources.emplace_back(attribute.first);
-        for (const auto& [uniformName, uniform] : set->getUniformList()) sources.emplace_back(uniform.first);
-    }
+    osg::Geometry::ArrayList arrays;
+    if (const osg::Geometry* geometry = given.asGeometry()) geometry->getArrayList(arrays);
+    sources.insert(sources.end(), arrays.begin(), arrays.end());
+    holdStates(states, sources);
 }
 
-std::uint64_t SelfDrawing::fingerprintOf(const osg::NodePath& path, const osg::Drawable& drawable,
-                                         std::uint64_t placed) {
+std::uint64_t SelfDrawing::fingerprintOf(const osg::Drawable& drawable, std::uint64_t placed, std::uint64_t states) {
     Fingerprint result;
     result.mix(placed);
     result.mix(static_cast<const void*>(&drawable));
     result.mix(std::uint64_t{changesUnseen(drawable)});
-    for (const auto& set : statesAlong(path)) mixState(*set, result);
+    if (const osg::Geometry* geometry = drawable.asGeometry()) mixArrays(*geometry, result);
+    result.mix(states);
     return result.value();
 }
 

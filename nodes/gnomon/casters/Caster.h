@@ -2,6 +2,7 @@
 #pragma once
 #include <gnomon/casters/Casting.h>
 #include <gnomon/casters/DrawableContents.h>
+#include <gnomon/casters/DrawnState.h>
 
 #include <osg/BoundingBox>
 #include <osg/Drawable>
@@ -60,28 +61,33 @@ bool isBody(const Caster& piece);
 /// never changes. drawsItself() and Caster::selfDrawn tell which drawables are such.
 ///
 /// Limits
-/// - It counts as changed by its place, bounds, arrays, state sets and their uniforms. What moves otherwise is DYNAMIC.
+/// - It counts as changed by its place, bounds, arrays and all that its state sets give. Where contents cannot be told it is
+///   drawn again in each frame; see changesUnseen(). What moves otherwise is DYNAMIC.
 struct SelfDrawing : public osg::Referenced {
     /// Of the drawable at the end of a path, which begins at the group.
     SelfDrawing(const osg::NodePath& path, const osg::Drawable& drawable, const osg::Matrixd& groupFromLocal,
                 const Casting& casting);
 
+    /// The sets along a path and above it, by first parents.
+    static DrawnStates statesAlong(const osg::NodePath& path);
     /// Of all that is known to change the drawing, but for the edition.
     /// @param placed  of its geometry, see CasterFingerprint.
-    static std::uint64_t fingerprintOf(const osg::NodePath& path, const osg::Drawable& drawable, std::uint64_t placed);
+    /// @param states  of its states, see mixStates().
+    static std::uint64_t fingerprintOf(const osg::Drawable& drawable, std::uint64_t placed, std::uint64_t states);
 
     std::uint64_t fingerprint = 0;
-    unsigned edition = 0;   ///< how often its list was released.
+    unsigned edition = 0;   ///< how often its list was released, or an image that is not held replaced.
     mutable ListWatch list; ///< as Caster has it.
     const osg::ref_ptr<const osg::Drawable> drawable;
     const osg::Matrixd groupFromLocal;
-    const std::vector<osg::ref_ptr<osg::StateSet>> states; ///< Along the path and above it, the outermost first.
-    const std::string name;                                ///< Of the drawable, or the nearest named node above it.
-    osg::BoundingBoxd bounds;                              ///< Group frame. Invalid if nobody knows them.
-    const Casting casting;                                 ///< What its states leave of it.
-    const bool hasPiece;                                   ///< Its triangles are those of a Caster, too.
-    bool byProgram = false;                                ///< A program draws it, which may depend on the view.
-    bool mayChange = false;                                ///< It may be another in each frame.
+    const DrawnStates states;    ///< Along the path and above it.
+    const ReleasedImages images; ///< Of these.
+    const std::string name;      ///< Of the drawable, or the nearest named node above it.
+    osg::BoundingBoxd bounds;    ///< Group frame. Invalid if nobody knows them.
+    const Casting casting;       ///< What its states leave of it.
+    const bool hasPiece;         ///< Its triangles are those of a Caster, too.
+    bool byProgram = false;      ///< A program draws it, which may depend on the view.
+    bool mayChange = false;      ///< It may be another in each frame.
 
     std::vector<osg::ref_ptr<const osg::Referenced>> sources; ///< Held, so that no other can stand at their addresses.
 

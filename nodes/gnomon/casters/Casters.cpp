@@ -87,6 +87,8 @@ protected:
         const std::uint64_t geometry = CasterFingerprint::ofGeometry(drawable, casting, contents(drawable, casting));
         Fingerprint placed;
         placed.mix(CasterFingerprint::placed(geometry, rootFromLocal()));
+        if (const osg::Texture2D* texture = casting.test ? casting.test->texture.get() : nullptr)
+            if (texture->getUnRefImageDataAfterApply()) placed.mix(static_cast<const void*>(alphasOf(*texture).get()));
         placed.mix(static_cast<std::uint64_t>(hiding()));
         const std::uint64_t value = placed.value();
         _fingerprint.mix(value);
@@ -106,10 +108,11 @@ private:
         const SelfDrawing* known = place < _knownSelfDrawings.size() ? _knownSelfDrawings[place].get() : nullptr;
         if (known && known->drawable != &drawable) known = nullptr;
         unsigned edition = known ? known->edition : 0;
-        if (known && !known->hasPiece && followsOf(drawable) == Follows::List)
-            edition += known->list.mayBeStale(drawable, _contexts) ? 1 : 0;
+        const bool isListed = known && !known->hasPiece && followsOf(drawable) == Follows::List;
+        if ((isListed && known->list.mayBeStale(drawable, _contexts)) || (known && known->images.haveOther()))
+            ++edition;
         Fingerprint value;
-        value.mix(SelfDrawing::fingerprintOf(getNodePath(), drawable, placed));
+        value.mix(SelfDrawing::fingerprintOf(drawable, placed, statesNow()));
         value.mix(std::uint64_t{edition});
         _fingerprint.mix(value.value());
         if (known && known->fingerprint == value.value()) return _selfDrawings.push_back(_knownSelfDrawings[place]);
@@ -117,6 +120,18 @@ private:
         made->fingerprint = value.value();
         made->edition = edition;
         _selfDrawings.push_back(made);
+    }
+
+    /// Found once for drawables that follow each other under the same sets.
+    std::uint64_t statesNow() {
+        DrawnStates states = SelfDrawing::statesAlong(getNodePath());
+        if (_statesValue == 0 || states != _states) {
+            Fingerprint value;
+            mixStates(states, value);
+            _states = std::move(states);
+            _statesValue = value.value();
+        }
+        return _statesValue;
     }
 
     /// Of a drawable with a list, as the piece has them that was made of it, until the list is released. Where that piece
@@ -233,13 +248,14 @@ private:
         if (isOfLevels() && !isBody(piece)) piece.kept = found;
     }
 
-    /// Of a texture once a visit. An image may be let go once it is drawn: then a piece that was made before knows it.
+    /// Of a texture once a visit: as a piece that was made before has them, until the texture has another image.
     osg::ref_ptr<const TextureAlpha> alphasOf(const osg::Texture2D& texture) {
         const auto [known, isNew] = _alphas.try_emplace(&texture);
         if (!isNew) return known->second;
-        known->second = TextureAlpha::of(texture);
-        for (auto piece = _known.begin(); piece != _known.end() && !known->second; ++piece)
-            if ((*piece)->alphas && (*piece)->alphas->texture == &texture) known->second = (*piece)->alphas;
+        const auto hasThem = [&texture](const auto& piece) { return piece->alphas && piece->alphas->isOf(texture); };
+        auto piece = _known.begin() + static_cast<std::ptrdiff_t>(std::min(_next, _known.size()));
+        if (piece == _known.end() || !hasThem(*piece)) piece = std::find_if(_known.begin(), _known.end(), hasThem);
+        known->second = piece != _known.end() ? (*piece)->alphas : TextureAlpha::of(texture);
         return known->second;
     }
 
@@ -254,6 +270,8 @@ private:
     std::unordered_map<const osg::Drawable*, std::uint64_t> _read; ///< contents, however often a drawable is met.
     const unsigned _contexts = osg::GraphicsContext::getMaxContextID() + 1;
     std::uint64_t _contents = 0; ///< of the drawable being visited.
+    DrawnStates _states;
+    std::uint64_t _statesValue = 0; ///< of these; 0: of none yet.
     std::size_t _same = 0, _next = 0;
     bool _changed = false, _missed = false;
     Fingerprint _fingerprint;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/base/ProgramText.h>
 #include <gnomon/casters/Casting.h>
+#include <gnomon/casters/DrawnState.h>
 
 #include <osg/AlphaFunc>
 #include <osg/BlendColor>
@@ -223,7 +224,7 @@ void CastingJudge::Resolved::findAlpha(const PathState& state) {
         if (effect != Effect::Multiplies && effect != Effect::Replaces) continue;
         replaces = effect == Effect::Replaces;
         texture = dynamic_cast<osg::Texture2D*>(state.textureAttribute(A::TEXTURE));
-        unknown = unknown || !texture;
+        unknown = unknown || !texture || changesUnseen(*texture);
         const auto* matrix = dynamic_cast<const osg::TexMat*>(state.textureAttribute(A::TEXMAT));
         if (matrix) textureMatrix = matrix->getMatrix();
     }

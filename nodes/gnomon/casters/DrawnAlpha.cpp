@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/casters/DrawnAlpha.h>
+#include <gnomon/casters/DrawnState.h>
 
 #include <osg/Geometry>
 #include <osg/Image>
@@ -79,6 +80,12 @@ void mixArray(const osg::Array* array, Fingerprint& into) {
     if (array) into.mix(std::uint64_t{array->getModifiedCount()} << 32 | array->getNumElements());
 }
 
+std::uint64_t samplingOf(const osg::Texture2D& texture) {
+    Fingerprint found;
+    mixTexture(texture, found);
+    return found.value();
+}
+
 } // namespace
 
 void TextureAlpha::Cell::add(const Cell& other) {
@@ -88,9 +95,9 @@ void TextureAlpha::Cell::add(const Cell& other) {
 
 osg::ref_ptr<const TextureAlpha> TextureAlpha::of(const osg::Texture2D& texture) {
     const osg::Image* image = texture.getImage();
-    if (!image || !image->data() || image->s() < 1 || image->t() < 1) return nullptr;
-    if (image->isCompressed() && image->isImageTranslucent()) return nullptr;
     const osg::ref_ptr<TextureAlpha> result = new TextureAlpha(texture);
+    if (!image || !image->data() || image->s() < 1 || image->t() < 1) return result;
+    if (image->isCompressed() && image->isImageTranslucent()) return result;
     const auto isNearest = [&](osg::Texture::FilterParameter which) {
         return texture.getFilter(which) == osg::Texture::NEAREST;
     };
@@ -105,6 +112,18 @@ osg::ref_ptr<const TextureAlpha> TextureAlpha::of(const osg::Texture2D& texture)
     else
         result->read(*image);
     return result;
+}
+
+TextureAlpha::TextureAlpha(const osg::Texture2D& of)
+    : _texture(&of),
+      _image(of.getImage()),
+      _count(of.getImage() ? of.getImage()->getModifiedCount() : 0),
+      _sampling(samplingOf(of)) {}
+
+bool TextureAlpha::isOf(const osg::Texture2D& texture) const {
+    const osg::Image* image = texture.getImage();
+    return _texture == &texture && _sampling == samplingOf(texture) &&
+           (!image || (image == _image.get() && image->getModifiedCount() == _count));
 }
 
 void TextureAlpha::read(const osg::Image& image) {
@@ -127,6 +146,7 @@ void TextureAlpha::read(const osg::Image& image) {
             cells[column / _step].add(here);
         }
     }
+    _all = {};
     for (const Cell& cell : _grid) _all.add(cell);
 }
 
@@ -202,10 +222,7 @@ void AlphaTest::mix(const osg::Drawable& drawable, Fingerprint& into) const {
     if (byVertex) mixArray(colorArray(drawable), into);
     if (!texture) return;
     into.mix(matrix);
-    const bool staysThere = !texture->getUnRefImageDataAfterApply(); // else it is let go when it is drawn
-    const osg::Image* image = staysThere ? texture->getImage() : nullptr;
-    into.mix(static_cast<const void*>(image));
-    if (image) into.mix(std::uint64_t{image->getModifiedCount()});
+    mixTexture(*texture, into);
     mixArray(coordinateArray(drawable), into);
 }
 

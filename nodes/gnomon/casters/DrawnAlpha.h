@@ -3,11 +3,13 @@
 #include <gnomon/base/Fingerprint.h>
 
 #include <osg/Drawable>
+#include <osg/Image>
 #include <osg/Matrixd>
 #include <osg/Referenced>
 #include <osg/Texture2D>
 #include <osg/Vec2d>
 #include <osg/Vec3>
+#include <osg/observer_ptr>
 
 #include <cstdint>
 #include <vector>
@@ -27,9 +29,10 @@ struct AlphaRange {
 /// - Any number. It never changes.
 class TextureAlpha : public osg::Referenced {
 public:
-    /// Null if the image is not there, or compressed with an alpha.
+    /// Of an image that is not there, or compressed with an alpha, nothing is known.
     static osg::ref_ptr<const TextureAlpha> of(const osg::Texture2D& texture);
-    const osg::Texture2D* const texture; ///< Identifies it while somebody holds it. Do not dereference it.
+    /// True until the texture has got another image. One that it has let go, once drawn, counts as it was.
+    bool isOf(const osg::Texture2D& texture) const;
     /// Bounds of what a box of texture coordinates shows, its filter included.
     AlphaRange over(const osg::Vec2d& low, const osg::Vec2d& high) const;
 
@@ -37,7 +40,7 @@ protected:
     ~TextureAlpha() override = default;
 
 private:
-    explicit TextureAlpha(const osg::Texture2D& of) : texture(&of) {}
+    explicit TextureAlpha(const osg::Texture2D& of);
     /// Bounds as bytes, rounded outwards.
     struct Cell {
         std::uint8_t least = 255, most = 0;
@@ -51,10 +54,14 @@ private:
     Covered coveredAlong(unsigned axis, double low, double high) const;
     void read(const osg::Image& image);
 
+    const osg::Texture2D* const _texture; ///< Identifies it while somebody holds it. Do not dereference it.
+    const osg::observer_ptr<const osg::Image> _image;
+    const unsigned _count;                                ///< of the image's changes.
+    const std::uint64_t _sampling;                        ///< see mixTexture().
     int _size[2] = {0, 0}, _cells[2] = {0, 0}, _step = 1; ///< texels, cells, texels in a cell's side.
     osg::Texture::WrapMode _wrap[2] = {};
     double _reach = 0.5; ///< texels by which the filter looks beyond a coordinate.
-    Cell _border, _all;
+    Cell _border, _all{0, 255};
     std::vector<Cell> _grid;
 };
 
