@@ -110,3 +110,27 @@ TEST(ProgramText, ALogarithmOrAnOwnFragmentDepthReplacesOpenGLs) {
 TEST(ProgramText, CommentsSayNothing) {
     EXPECT_FALSE(moves("// v.x += gl_InstanceID;\nvoid main() { /* gl_Position = x; */ gl_Position = ftransform(); }"));
 }
+
+TEST(ProgramText, AScreenDoorDiscardsByTheFragmentsPlaceInThePicture) {
+    const auto byPixel = [](const std::string& fragment) {
+        const gnomon::ProgramPlaces places = gnomon::placesOf(*programOf("", fragment));
+        EXPECT_TRUE(places.discards) << fragment;
+        return places.discardsByPixel;
+    };
+    EXPECT_TRUE(byPixel("uniform float fade; void main() { if (fract(gl_FragCoord.x * 0.5) >= fade) discard; }"));
+    EXPECT_TRUE(
+        byPixel("uniform float fade; uniform bool other; float door(vec2 p) { return mod(p.x + p.y, 2.0); }\n"
+                "void main() { float t = door(floor(gl_FragCoord.xy)); if (other ? t < fade : t >= fade) discard; }"));
+    EXPECT_TRUE(byPixel("uniform float fade; float door() { vec2 p = gl_FragCoord.xy; return mod(p.x, 2.0); }\n"
+                        "void main() { if (fade < door()) { gl_FragColor = vec4(0.0); discard; } }"));
+    EXPECT_TRUE(
+        byPixel("void main() { float x = mod(gl_FragCoord.x, 2.0); bool kept = false; if (x > 1.0) { kept = true; }\n"
+                "if (!kept) discard; }"));
+    EXPECT_TRUE(byPixel("void main() { if (gl_FragCoord.x > 4.0) gl_FragColor = vec4(1.0); else discard; }"));
+    EXPECT_FALSE(
+        byPixel("uniform sampler2D t, light; varying vec2 at; void main() { if (texture2D(t, at).a < 0.5) discard;\n"
+                "gl_FragColor = texture2D(light, gl_FragCoord.xy / 512.0); }"));
+    EXPECT_FALSE(byPixel("void main() { if (gl_FragCoord.z > 0.5) discard; gl_FragColor = vec4(gl_FragCoord.x); }"));
+    EXPECT_FALSE(byPixel("varying vec2 at; float shade() { return gl_FragCoord.y; } float cut(vec2 p) { return p.x; }\n"
+                         "void main() { if (cut(at) < 0.5) { discard; } gl_FragColor = vec4(shade()); }"));
+}

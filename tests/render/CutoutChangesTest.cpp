@@ -192,6 +192,23 @@ TEST(CutoutChanges, ByAClockAreSeenInEveryFrame) {
     }
 }
 
+/// Half of it by a pattern of the picture's pixels, of which the map has others: its shadow would be a pattern, too, that crawls.
+TEST(CutoutChanges, ByThePicturesPixelsCastNothingButAllOfItAndAreNamed) {
+    for (const bool mapped : {true, false}) {
+        Plate plate(mapped ? static_cast<gnomon::ShadowTechnique*>(new gnomon::ShadowMapTechnique)
+                           : new gnomon::AutoShadowTechnique);
+        plate.state().setAttributeAndModes(fragmentProgram(
+            "void main() { if (mod(floor(gl_FragCoord.x) + floor(gl_FragCoord.y), 2.0) > 0.5) discard; gl_FragColor = "
+            "vec4(1.0); }"));
+        EXPECT_EQ(plate.wrong(isAll), 0);
+        const std::vector<std::string> causes = plate.technique->diagnose();
+        EXPECT_TRUE(std::any_of(causes.begin(), causes.end(), [](const std::string& cause) {
+            return cause.find("what discards by gl_FragCoord casts as if it were solid") != std::string::npos &&
+                   cause.find("the first in 'plate'") != std::string::npos;
+        }));
+    }
+}
+
 TEST(CutoutChanges, OnASecondUnitAreSeenInTheNextFrame) {
     Plate plate;
     plate.testAlpha();

@@ -185,14 +185,79 @@ bool replacesDepth(const std::string& text) {
     return contains(text, "log") || !asOpenGl;
 }
 
+/// Follows gl_FragCoord's x and y from names to names, and into the conditions under which fragments are discarded.
+class PixelWay {
+public:
+    explicit PixelWay(const Tokens& tokens) {
+        Tokens statement;
+        for (const std::string& token : tokens) {
+            if (token != ";" && token != "{" && token != "}") {
+                statement.push_back(token);
+                continue;
+            }
+            take(statement, token == "{");
+            statement.clear();
+            if (token != "}" || _blocks.empty()) continue;
+            _condition = _blocks.back();
+            _blocks.pop_back();
+        }
+    }
+
+    bool arrives() const { return _arrives; }
+
+private:
+    void take(const Tokens& statement, bool opens) {
+        const auto has = [&statement](const char* word) {
+            return std::find(statement.begin(), statement.end(), word) != statement.end();
+        };
+        const bool byPixel = isByPixel(statement) || (has("else") && _condition) ||
+                             std::find(_blocks.begin(), _blocks.end(), true) != _blocks.end();
+        _arrives = _arrives || (byPixel && has(discard));
+        if (has("if")) _condition = byPixel;
+        if (byPixel && has("return")) _names.insert(_function);
+        if (byPixel) assign(statement);
+        if (!opens) return;
+        const auto bracket = std::find(statement.begin(), statement.end(), "(");
+        if (_blocks.empty() && bracket != statement.end() && bracket != statement.begin()) _function = *(bracket - 1);
+        _blocks.push_back(byPixel);
+    }
+
+    void assign(const Tokens& statement) {
+        const auto equals = std::find(statement.begin(), statement.end(), "=");
+        if (equals == statement.end()) return;
+        for (auto at = equals; at != statement.begin(); --at)
+            if (isName(*(at - 1)) && (at - 1 == statement.begin() || *(at - 2) != ".")) {
+                _names.insert(*(at - 1));
+                return;
+            }
+    }
+
+    bool isByPixel(const Tokens& statement) const {
+        for (std::size_t i = 0; i < statement.size(); ++i) {
+            const bool depth = i + 2 < statement.size() && statement[i + 1] == "." &&
+                               statement[i + 2].find_first_not_of("zw") == std::string::npos;
+            if (_names.count(statement[i]) > 0 || (statement[i] == "gl_FragCoord" && !depth)) return true;
+        }
+        return false;
+    }
+
+    std::set<std::string> _names;
+    std::vector<bool> _blocks; ///< that the statement is in: whether a pixel's place decides about each.
+    std::string _function;
+    bool _condition = false; ///< of the last if.
+    bool _arrives = false;
+};
+
 ProgramPlaces found(const osg::Program& program, const std::string& vertex, const std::string& fragment) {
     const Tokens tokens = tokensOf(vertex);
     ProgramPlaces places;
     places.movesVertices = !vertex.empty() && !VertexWay(tokens, program).arrives();
     places.setsDepth = bendsDepth(vertex, tokens) || replacesDepth(fragment);
     const Tokens inFragment = contains(fragment, discard) ? tokensOf(fragment) : Tokens();
-    places.discards = std::find(inFragment.begin(), inFragment.end(), discard) != inFragment.end() ||
-                      std::any_of(tokens.begin(), tokens.end(), [](const auto& token) { return cuts(token); });
+    const bool isDiscarded = std::find(inFragment.begin(), inFragment.end(), discard) != inFragment.end();
+    places.discardsByPixel = isDiscarded && PixelWay(inFragment).arrives();
+    places.discards =
+        isDiscarded || std::any_of(tokens.begin(), tokens.end(), [](const auto& token) { return cuts(token); });
     return places;
 }
 

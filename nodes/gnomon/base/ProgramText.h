@@ -15,6 +15,9 @@ struct ProgramPlaces {
     bool setsDepth = false;
     /// Fragments may be discarded, or cut off by gl_ClipDistance.
     bool discards = false;
+    /// The same by their place in the picture, as screen-door fades do. Through functions that compute from it, not through
+    /// their arguments.
+    bool discardsByPixel = false;
     /// Its text is not known: see mayApplyProgram(). All of the above may be.
     bool unseen = false;
 };

@@ -42,7 +42,7 @@ struct Caster : public osg::Referenced {
     bool cutOut = false;                        ///< It has triangles that are clear in part.
     bool selfDrawn = false;                     ///< The same, and only its own drawing tells what is clear.
     osg::ref_ptr<const TextureAlpha> alphas;    ///< Of the texture that its casting looked at; may be null.
-    std::string cutoutNode;                     ///< See CasterExtraction::getCutoutNode().
+    std::string cutoutNode;                     ///< See CasterExtraction::getCutoutNode(); of Casting::byPixel, too.
     std::vector<osg::ref_ptr<const osg::Referenced>> sources; ///< See CasterExtraction::getSources().
     bool ofLevels = false;                                    ///< It is under an LOD: it may go and come back.
     osg::ref_ptr<const CasterExtraction> kept;   ///< Its triangles, if it is under an LOD and no body. Else null.

@@ -227,6 +227,7 @@ private:
             piece->cutOut = piece->selfDrawn = true;
             piece->cutoutNode = nameAlong(getNodePath());
         }
+        if (casting.byPixel) piece->cutoutNode = nameAlong(getNodePath());
         return piece;
     }
 
@@ -337,6 +338,7 @@ Casters::Casters(CasterList pieces, std::uint64_t fingerprintOfAll, std::uint64_
         invalidTriangles += piece->invalidTriangles;
         if (cutouts == 0) cutoutNode = piece->cutoutNode;
         cutouts += piece->cutOut;
+        if (piece->casting.byPixel && screenDoors++ == 0) screenDoorNode = piece->cutoutNode;
     }
 }
 

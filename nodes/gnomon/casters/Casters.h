@@ -152,6 +152,8 @@ public:
     std::string invalidNode;         ///< Name of the first drawable with an invalid triangle.
     unsigned cutouts = 0;            ///< Pieces with triangles that are clear in part: only maps know in which.
     std::string cutoutNode;          ///< Name of the first of them.
+    unsigned screenDoors = 0;        ///< Pieces of Casting::byPixel.
+    std::string screenDoorNode;      ///< Name of the first of them.
     std::string leftOut;             ///< See CasterVisitor::leftOut().
 
     /// Finds the casters below a node. Reads the graph as a cull traversal does.

@@ -160,6 +160,7 @@ bool takesVertexColor(const osg::Material& material) {
 struct CastingJudge::Resolved {
     bool nothing = false;    ///< is drawn, or hides anything.
     bool discards = false;   ///< a program.
+    bool byPixel = false;    ///< the same, by gl_FragCoord.
     bool blends = false;     ///< by alpha.
     bool programmed = false; ///< alpha comes from a program.
     bool late = false;       ///< drawn with what is transparent.
@@ -245,9 +246,9 @@ void CastingJudge::reset() {
     _resolved = nullptr;
 }
 
-bool CastingJudge::discards(const osg::Program& program) {
-    const auto [known, isNew] = _programs.try_emplace(&program, false);
-    if (isNew) known->second = mayDiscard(program);
+const ProgramPlaces& CastingJudge::placesIn(const osg::Program& program) {
+    const auto [known, isNew] = _programs.try_emplace(&program);
+    if (isNew && mayDiscard(program)) known->second = placesOf(program);
     return known->second;
 }
 
@@ -258,7 +259,7 @@ bool CastingJudge::mayMatter(const osg::StateSet& set) {
     for (const auto& [type, attribute] : set.getAttributeList()) {
         const auto* program =
             type.first == A::PROGRAM ? dynamic_cast<const osg::Program*>(attribute.first.get()) : nullptr;
-        if (program ? discards(*program) : removes(*attribute.first)) return true;
+        if (program ? placesIn(*program).discards : removes(*attribute.first)) return true;
     }
     return false;
 }
@@ -268,7 +269,8 @@ const CastingJudge::Resolved& CastingJudge::resolved(const PathState& state) {
     _sets = state.sets();
     const auto now = std::make_shared<Resolved>(state, _rule.value_or(CastingRule()));
     const osg::Program* program = state.program();
-    now->discards = (program && discards(*program)) || state.hasUnseenProgram();
+    now->discards = (program && placesIn(*program).discards) || state.hasUnseenProgram();
+    now->byPixel = program && placesIn(*program).discardsByPixel;
     if (state.isOn(fixedRestart))
         now->restart = ~0u;
     else if (state.isOn(GL_PRIMITIVE_RESTART)) {
@@ -348,6 +350,8 @@ Casting CastingJudge::of(const osg::NodePath& path, const osg::Drawable& drawabl
         if (side == Side::Gone) result.casts = false;
     }
     if (!result.casts) return result;
+    result.byPixel = found.byPixel;
+    if (result.byPixel) return result;
     result.selfDrawn = found.discards;
     const bool counts =
         found.test || (found.blends && (!found.programmed || found.late)); // a program's alpha may be any
@@ -380,6 +384,7 @@ Casting CastingJudge::of(const osg::NodePath& path, const osg::Drawable& drawabl
 
 void Casting::mix(const osg::Drawable& drawable, Fingerprint& into) const {
     if (restart) into.mix(std::uint64_t{*restart} << 1 | 1);
+    if (byPixel) into.mix(double{-1.0});
     if (selfDrawn) into.mix(double{1.0f + opaqueFrom});
     for (const auto& [number, plane] : clips) {
         into.mix(std::uint64_t{number});

@@ -195,7 +195,8 @@ using NumberedPlane = std::pair<unsigned, osg::Vec4d>;
 ///   scissor box, or stippled to less than half.
 /// - Of what has an alpha test or blends, the parts that pass the test, or have an alpha of CastingRule::opaqueFrom.
 /// - What clip planes leave, as CastingRule::clips has it.
-/// - Of what a program discards, or may discard where its text is not known, nobody knows what is left but who draws it.
+/// - Of what a program discards, or may discard where its text is not known, nobody knows what is left but who draws it. Of what
+///   it discards by gl_FragCoord, all.
 ///
 /// Light is not the camera: a face culled for the eye casts, and so does what a scissor box keeps out of a picture.
 ///
@@ -205,6 +206,7 @@ using NumberedPlane = std::pair<unsigned, osg::Vec4d>;
 struct Casting {
     bool casts = true;             ///< False if nothing of it does.
     bool selfDrawn = false;        ///< Only drawing it tells which parts are clear. Each triangle may be in part.
+    bool byPixel = false;          ///< Pixels of the picture tell that, which no light sees: all casts.
     float opaqueFrom = 0.0f;       ///< The alpha from which on it casts where it is drawn without a test. 0: all does.
     std::optional<AlphaTest> test; ///< Which parts are clear. nullopt: none, or selfDrawn.
     std::vector<NumberedPlane> clips; ///< Planes that cut it, root frame.
@@ -240,12 +242,11 @@ private:
     /// What the state alone says.
     struct Resolved;
     const Resolved& resolved(const PathState& state);
-    bool discards(const osg::Program& program);
-    bool discards(const PathState& state);
+    const ProgramPlaces& placesIn(const osg::Program& program);
 
     std::optional<CastingRule> _rule;
-    std::map<const osg::Program*, bool> _programs; ///< whether they discard.
-    std::vector<const osg::StateSet*> _sets;       ///< of _resolved: drawables of one state mostly follow each other.
+    std::map<const osg::Program*, ProgramPlaces> _programs; ///< of those that discard.
+    std::vector<const osg::StateSet*> _sets; ///< of _resolved: drawables of one state mostly follow each other.
     std::shared_ptr<const Resolved> _resolved;
 };
 

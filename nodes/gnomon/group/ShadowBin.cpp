@@ -35,6 +35,10 @@ const bool registered = [] {
 void reportSelfDrawings(const EnlistedTechnique& entry, const Casters& casters) {
     const auto report = [&entry](const std::string& cause) { entry.report(cause); };
     const auto& drawings = casters.selfDrawings;
+    if (casters.screenDoors > 0)
+        report("what discards by gl_FragCoord casts as if it were solid, because a light sees no pixels: " +
+               std::to_string(casters.screenDoors) + ", the first in '" + casters.screenDoorNode +
+               "'. Take it out of the casters once it has faded.");
     if (entry.technique->drawsCasters()) {
         const auto hasNone = [](const auto& drawing) { return !drawing->bounds.valid(); };
         const auto unbounded = std::find_if(drawings.begin(), drawings.end(), hasNone);
