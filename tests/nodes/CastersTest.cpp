@@ -140,7 +140,10 @@ TEST(Casters, AreTestedAsTheWayDownToThemSays) {
     osg::ref_ptr<osg::Group> root = new osg::Group;
     for (int i = 0; i < 2; ++i) root->addChild(scene::under(osg::Matrixd::translate(5.0 * i, 0, 0), pane));
     osg::StateSet& set = *root->getChild(1)->getOrCreateStateSet();
-    set.setTextureAttributeAndModes(0, new osg::Texture2D);
+    const osg::ref_ptr<osg::Image> image = new osg::Image; // without one it would be rendered to
+    image->allocateImage(1, 1, 1, GL_RGBA, GL_FLOAT);
+    image->setColor(osg::Vec4(1.0f, 1.0f, 1.0f, 0.5f), 0u, 0u);
+    set.setTextureAttributeAndModes(0, new osg::Texture2D(image));
     set.setAttributeAndModes(new osg::AlphaFunc(osg::AlphaFunc::GREATER, 0.5f));
     const auto pieces = Casters::of(*root, {}, nullptr);
     const osg::ref_ptr<gnomon::CasterMesh> mesh = gnomon::meshOf(pieces->list);
