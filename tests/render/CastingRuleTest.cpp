@@ -675,6 +675,26 @@ TEST(GoneCasters, AreLetGoByAllTechniques) {
     }
 }
 
+TEST(GoneCasters, AreLetGoOnceNoTechniqueIsLeftOrOn) {
+    for (const std::string spec : {"map", "volume", "traced", "planar:receiver=ground", "hull:receiver=ground", "auto"})
+        for (const bool masked : {false, true}) {
+            Scene scene = test::groundScene({tower}, 8.0, sun);
+            scene.addShadow(spec);
+            test::Camera camera(scene.root, fromTheSide());
+            camera.frame();
+            if (masked)
+                scene.group->getChild(1)->setNodeMask(0);
+            else
+                scene.group->removeChild(1);
+            const osg::observer_ptr<osg::Node> geode = test::find(*scene.root, "caster");
+            const osg::observer_ptr<osg::Array> vertices =
+                geode->asGeode()->getDrawable(0)->asGeometry()->getVertexArray();
+            scene.content->removeChild(geode.get());
+            for (int i = 0; i < 250; ++i) camera.viewer().frame(); // more than anything waits for another use
+            EXPECT_FALSE(vertices.valid()) << spec << (masked ? ", switched off" : ", removed");
+        }
+}
+
 /// As a model of Inventor's draws its mesh: a sheet, and its edges a bit above it.
 TEST(CastingRule, LinesOverASheetDoNotShadowIt) {
     test::Mesh sheet;

@@ -218,6 +218,11 @@ void AutoChooser::beginCull(bool isCurrent) {
     _known = {};
 }
 
+void AutoChooser::forgetFacts() {
+    Lock lock(_mutex);
+    _known = {};
+}
+
 osg::ref_ptr<DrawWatch> AutoChooser::watch(const void* stage, const AutoShadowOptions& options) {
     if (!(options.time > 0.0) && _renderer->value != Renderer::Unknown) return nullptr;
     Lock lock(_mutex);

@@ -45,6 +45,8 @@ public:
     std::vector<ShadowDecision> lastDecision() const;
     /// See InnerTechniques::passes().
     unsigned passes() const;
+    /// Lets go what is known of casters.
+    void forgetFacts();
     void forEach(const std::function<void(ShadowTechnique&)>& visit) const;
     void releaseGLObjects(osg::State* state) const;
 

@@ -84,6 +84,7 @@ void AutoShadowTechnique::traverse(osg::NodeVisitor& visitor) {
 
 void AutoShadowTechnique::letGo() const {
     _chooser->forEach([](ShadowTechnique& inner) { inner.letGo(); });
+    _chooser->forgetFacts();
 }
 
 osg::ref_ptr<DrawWatch> AutoShadowTechnique::watch(const ViewFrame& view) const {

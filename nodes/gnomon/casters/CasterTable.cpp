@@ -11,7 +11,6 @@ namespace {
 using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
 
 constexpr std::size_t mostChoices = 4; // of levels: those of some views, or of a way to and fro
-constexpr unsigned keptCalls = 240;    // choices that nobody asked for since are let go
 constexpr unsigned pruneEvery = 60;    // calls: levels may leave the graph unseen
 
 const void* keyOf(const CasterView* view) { return view ? view->key : nullptr; }
@@ -45,6 +44,7 @@ unsigned CasterTable::count() const {
 
 osg::ref_ptr<const Casters> CasterTable::casters(osg::Node& root, const Selection& casters, const CasterView* view) {
     Lock lock(_mutex);
+    _culls = 0;
     const osg::ref_ptr<const Casters> before = knownTo(view),
                                       now = Casters::of(root, casters, before, view, &_known, _rule);
     if (now != before) now->_table = this;

@@ -6,6 +6,7 @@
 
 #include <OpenThreads/Mutex>
 
+#include <atomic>
 #include <cstdint>
 
 namespace gnomon {
@@ -30,11 +31,19 @@ public:
     unsigned count() const;
     /// Forgets all: others cast.
     void clear();
+    /// A cull has passed the group. Forgets all if nobody has asked for the casters in so many: no technique is left, or on.
+    /// @return true if it does: who keeps something of these casters may let it go.
+    bool passCull() {
+        if (++_culls != keptCalls) return false;
+        clear();
+        return true;
+    }
 
 protected:
     ~CasterTable() override = default;
 
 private:
+    static constexpr unsigned keptCalls = 240; ///< choices that nobody asked for since are let go.
     /// What casts with one choice of levels.
     struct Choice {
         std::uint64_t choice;
@@ -53,6 +62,7 @@ private:
     RecentCache<Choice> _choices;
     KnownCasters _known;
     unsigned _calls = 0, _count = 0;
+    std::atomic<unsigned> _culls{0}; ///< since the casters were asked for.
     CastingRule _rule;
 };
 

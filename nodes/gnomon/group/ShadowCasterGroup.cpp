@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/ShadowCasterGroup.h>
+#include <gnomon/ShadowTechnique.h>
 #include <gnomon/base/OptimizerGuard.h>
 #include <gnomon/casters/CasterTable.h>
 
@@ -28,6 +29,15 @@ CastingRule ruleOf(const ShadowCasterGroup& group) {
                                                                         : CastingRule::OfGraph;
     return from < 0.0f ? CastingRule{0.5f, 1.0f, clips} : CastingRule{from, from, clips};
 }
+
+/// Techniques that are off are met as well.
+class LetsGo : public osg::NodeVisitor {
+public:
+    LetsGo() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
+    void apply(osg::Geode& geode) override {
+        if (const auto* technique = dynamic_cast<const ShadowTechnique*>(&geode)) technique->letGo();
+    }
+};
 
 } // namespace
 
@@ -119,7 +129,12 @@ std::vector<Selection> ShadowCasterGroup::namedParts() const {
 }
 
 void ShadowCasterGroup::traverse(osg::NodeVisitor& visitor) {
-    if (!keptFromOptimizer(*this, visitor)) osg::Group::traverse(visitor);
+    if (keptFromOptimizer(*this, visitor)) return;
+    if (visitor.getVisitorType() == osg::NodeVisitor::CULL_VISITOR && _table->passCull()) {
+        const osg::ref_ptr<LetsGo> techniques = new LetsGo;
+        osg::Group::traverse(*techniques);
+    }
+    osg::Group::traverse(visitor);
 }
 
 void ShadowCasterGroup::ascend(osg::NodeVisitor& visitor) {
