@@ -52,7 +52,74 @@ private:
     const osg::ref_ptr<osg::Geode> _before, _onScreen = node(quad({-0.9, 0.5, 0.0}, {0.3, 0.0, 0.0}, {0.0, 0.3, 0.0}));
 };
 
+/// Hands what it draws to visitors, as osgTerrain's tiles do, or to culls alone: nothing of it is its child.
+class Hands : public osg::Node {
+public:
+    Hands(osg::Node* drawn, bool toAll) : _drawn(drawn), _toAll(toAll) {}
+    void traverse(osg::NodeVisitor& visitor) override {
+        if (_toAll || visitor.asCullVisitor()) _drawn->accept(visitor);
+    }
+    osg::BoundingSphere computeBound() const override { return _drawn->getBound(); }
+
+private:
+    const osg::ref_ptr<osg::Node> _drawn;
+    const bool _toAll;
+};
+
+/// Puts a node that hands it on in the place of the content's child of that name.
+osg::ref_ptr<osg::Node> handOn(Scene& scene, const std::string& name, bool toAll = true) {
+    const osg::ref_ptr<osg::Node> child = find(*scene.root, name), hands = new Hands(child, toAll);
+    scene.content->replaceChild(child, hands);
+    return hands;
+}
+
 } // namespace
+
+TEST(HostileGraph, ANamedReceiverThatHandsOnWhatItDrawsIsShadowedAsItsChildWouldBe) {
+    const auto picture = [](const std::string& spec, bool handed, int naming) {
+        Scene scene = boxScene();
+        osg::ref_ptr<osg::Node> ground = find(*scene.root, "ground"), caster = find(*scene.root, "caster");
+        if (handed) ground = handOn(scene, "ground");
+        ground->setNodeMask(1);
+        caster->setNodeMask(2);
+        scene.addShadow(spec);
+        auto* technique =
+            dynamic_cast<gnomon::ShadowTechnique*>(scene.group->getChild(scene.group->getNumChildren() - 1));
+        technique->setReceiver(naming == 0 ? gnomon::Selection{ground}
+                                           : gnomon::Selection{nullptr, naming == 1 ? 1u : 2u});
+        return render(scene.root, perspective({-6.0, -10.0, 6.0}, {0.0, 0.0, 0.0}, 90, 60));
+    };
+    for (const std::string spec : {"planar", "map", "volume:composite=blend", "traced", "hull"})
+        for (const int naming : {0, 1, 2}) { // by node, by its mask, by another mask
+            const Picture expected = picture(spec, false, naming);
+            EXPECT_EQ(picture(spec, true, naming).different(expected), 0) << spec << ", " << naming;
+            if (naming < 2) EXPECT_GT(expected.count(shadowedGround), 100) << spec;
+        }
+}
+
+TEST(HostileGraph, ACasterThatHandsOnWhatItDrawsCastsWhereItIsNamed) {
+    Scene scene = boxScene(), expected = boxScene();
+    for (Scene* each : {&scene, &expected}) each->addShadow("traced");
+    scene.group->setCasters({handOn(scene, "caster")});
+    expected.group->setCasters({find(*expected.root, "caster")});
+    EXPECT_EQ(render(scene.root, slanted).different(render(expected.root, slanted)), 0);
+}
+
+TEST(HostileGraph, AReceiverInSightUnderWhichNothingIsFoundIsNamedAsTheCause) {
+    for (const bool byNode : {true, false}) {
+        Scene scene = boxScene();
+        const osg::ref_ptr<osg::Node> ground = handOn(scene, "ground", false);
+        ground->setName("tile");
+        const auto technique = planar();
+        technique->setReceiver(byNode ? gnomon::Selection{ground} : gnomon::Selection{nullptr, 0u});
+        scene.addShadow(technique);
+        render(scene.root, slanted);
+        expectOneCause(*technique, byNode ? "nothing that is drawn is found under the receiver 'tile'"
+                                          : "nothing that is drawn is found under the receiver.");
+        render(scene.root, perspective({0.0, 0.0, 50.0}, {0.0, 1.0, 500.0}));
+        EXPECT_EQ(technique->diagnose().size(), byNode ? 0u : 1u); // where a mask would be seen nobody knows
+    }
+}
 
 /// Where the leaf is, the picture is that without shadows; elsewhere it is that without the leaf.
 TEST(HostileGraph, ALeafWithoutMatricesIsDrawnAndLeavesTheShadowsRight) {

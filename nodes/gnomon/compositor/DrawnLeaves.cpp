@@ -4,10 +4,13 @@
 #include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/gl/GlState.h>
 
+#include <osg/Camera>
 #include <osg/ColorMask>
 #include <osg/Depth>
 #include <osg/Geometry>
+#include <osg/NodeVisitor>
 #include <osg/PolygonMode>
+#include <osg/Polytope>
 #include <osg/Transform>
 #include <osgUtil/StateGraph>
 
@@ -32,36 +35,46 @@ void append(osgUtil::RenderBin& bin, int before, std::vector<DrawnLeaf>& leaves)
     for (; next != bins.end() && next->first < before; ++next) append(*next->second, INT_MAX, leaves);
 }
 
+using Nodes = std::unordered_set<const osg::Node*>;
+
+/// Those without parents at and above a node.
+void addTops(const osg::Node& node, Nodes& tops) {
+    if (node.getNumParents() == 0) tops.insert(&node);
+    for (const osg::Group* parent : node.getParents()) addTops(*parent, tops);
+}
+
+/// What lies under a selection, and where the scene begins.
+struct Part {
+    Part(const Selection& selection, const osg::Node& scene) : mask(selection.mask) {
+        for (const auto& root : selection.roots()) roots.insert(root.get());
+        addTops(scene, tops);
+    }
+    const osg::Node::NodeMask mask;
+    Nodes roots; ///< empty: any node.
+    Nodes tops;
+};
+
 /// Whether a node can be reached under a selection: by some way from above, by all ways.
 struct Ways {
     bool some = false, all = true;
 };
 
-bool nearlyEqual(const osg::Matrixd& a, const osg::Matrixd& b) {
-    double difference = 0.0, size = 0.0;
-    for (int i = 0; i < 16; ++i) {
-        difference = std::max(difference, std::abs(a.ptr()[i] - b.ptr()[i]));
-        size = std::max(size, std::abs(a.ptr()[i]));
-    }
-    return difference <= 1e-9 * size; // the same product of doubles taken in another order
-}
-
-/// Tells what lies under a selection. Looks at each node once.
+/// Tells what lies under a selection, from below. Looks at each node once.
 class WaysUnder {
 public:
-    explicit WaysUnder(const Selection& selection) : _mask(selection.mask) {
-        for (const auto& root : selection.roots()) _roots.insert(root.get());
-    }
+    explicit WaysUnder(const Part& part) : _part(part) {}
 
     Ways operator()(const osg::Node& node) {
         const auto [known, isNew] = _ways.insert({&node, {false, false}});
-        if (!isNew || !(node.getNodeMask() & _mask)) return known->second;
+        if (!isNew || !(node.getNodeMask() & _part.mask)) return known->second;
         Ways ways;
-        const bool isRoot = _roots.count(&node) > 0;
+        const bool isRoot = _part.roots.count(&node) > 0;
         if (isRoot)
             ways = {true, true};
+        else if (node.getNumParents() == 0 && _part.tops.count(&node) == 0)
+            ways = {true, false}; // any node may hand it on
         else if (node.getNumParents() == 0)
-            ways = {_roots.empty(), _roots.empty()};
+            ways = {_part.roots.empty(), _part.roots.empty()};
         for (unsigned i = 0; !isRoot && i < node.getNumParents(); ++i) {
             const Ways way = (*this)(*node.getParent(i));
             ways.some = ways.some || way.some;
@@ -70,63 +83,75 @@ public:
         return _ways[&node] = ways;
     }
 
-    /// True if this way from above leads through the selection.
-    bool holds(const osg::NodePath& path) const {
-        bool under = _roots.empty();
-        bool visible = true;
-        for (const osg::Node* node : path) {
-            under = under || _roots.count(node);
-            visible = visible && (!under || (node->getNodeMask() & _mask));
-        }
-        return under && visible;
-    }
-
 private:
-    const osg::Node::NodeMask _mask;
-    std::unordered_set<const osg::Node*> _roots; ///< empty: any node.
+    const Part& _part;
     std::unordered_map<const osg::Node*, Ways> _ways;
 };
 
-/// Tells the leaves of a receiver. Looks at each drawable's ways once, however many leaves share them.
-class ReceiverTest {
+/// Finds the drawables under a selection from above, as a cull does: also those that a node hands on which are not its children.
+/// Switches and levels of detail do not matter here.
+///
+/// Cost    a visit of what is under the selected nodes; of the whole scene if none is named, or one is handed on itself.
+class FoundBelow : public osg::NodeVisitor {
 public:
-    ReceiverTest(const Selection& selection, const osg::Matrixd& eyeFromWorld)
-        : _under(selection), _eyeFromWorld(eyeFromWorld) {}
-
-    bool operator()(const osgUtil::RenderLeaf& leaf) {
-        const Ways ways = _under(*leaf._drawable);
-        return ways.some && (ways.all || isInstance(leaf));
+    /// @param first  one drawable is enough.
+    FoundBelow(const Part& part, const osg::Matrixd& eyeFromWorld, bool first = false)
+        : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _part(part), _first(first), _eyeFromWorld(eyeFromWorld) {
+        setNodeMaskOverride(~0u);
+        Nodes above;
+        for (const osg::Node* root : part.roots) addTops(*root, above);
+        const auto isTop = [&part](const osg::Node* node) { return part.tops.count(node) > 0; };
+        const bool fromRoots = !above.empty() && std::all_of(above.begin(), above.end(), isTop);
+        for (const osg::Node* start : fromRoots ? part.roots : part.tops)
+            for (osg::NodePath path : start->getParentalNodePaths()) {
+                path.pop_back();
+                _eyeFromHere = osg::computeLocalToWorld(path) * eyeFromWorld;
+                const_cast<osg::Node*>(start)->accept(*this); // which changes nothing
+            }
     }
 
-private:
-    /// Instances of one drawable under the selection, by the x of where they stand in eye space.
-    using Places = std::multimap<double, osg::Matrixd>;
+    void apply(osg::Node& node) override {
+        const bool wasUnder = _isUnder;
+        _isUnder = wasUnder || _part.roots.empty() || _part.roots.count(&node) > 0;
+        const bool passes = !_isUnder || (node.getNodeMask() & _part.mask);
+        if (const osg::Drawable* drawable = passes && _isUnder ? node.asDrawable() : nullptr)
+            _found[drawable].insert({_eyeFromHere(3, 0), _eyeFromHere});
+        if (passes && !(_first && any())) traverse(node);
+        _isUnder = wasUnder;
+    }
+    void apply(osg::Drawable& drawable) override { apply(static_cast<osg::Node&>(drawable)); }
+    void apply(osg::Transform& transform) override {
+        const osg::Matrixd above = _eyeFromHere;
+        const osg::Camera* camera = transform.asCamera();
+        if (camera && (camera->getReferenceFrame() == osg::Transform::ABSOLUTE_RF || camera->getNumParents() == 0))
+            _eyeFromHere = _eyeFromWorld;
+        else
+            transform.computeLocalToWorldMatrix(_eyeFromHere, nullptr);
+        apply(static_cast<osg::Node&>(transform));
+        _eyeFromHere = above;
+    }
 
-    /// One of several instances of a drawable: one whose way from above gives this leaf's modelview.
-    bool isInstance(const osgUtil::RenderLeaf& leaf) {
-        const auto [places, isNew] = _places.insert({leaf._drawable.get(), {}});
-        if (isNew) places->second = placesOf(*leaf._drawable);
-        const osg::Matrixd& here = modelviewOf(leaf);
-        const double margin = 1e-9 * (1.0 + std::abs(here(3, 0)) + std::abs(here(3, 1)) + std::abs(here(3, 2)));
+    bool any() const { return !_found.empty(); }
+    bool has(const osg::Drawable& drawable) const { return _found.count(&drawable) > 0; }
+    /// True if one of the drawable's places gives this modelview.
+    bool hasAt(const osg::Drawable& drawable, const osg::Matrixd& here) const {
+        const auto places = _found.find(&drawable);
+        if (places == _found.end()) return false;
+        const double margin = placeMargin(here);
         const auto end = places->second.upper_bound(here(3, 0) + margin);
         for (auto place = places->second.lower_bound(here(3, 0) - margin); place != end; ++place)
-            if (nearlyEqual(place->second, here)) return true;
+            if (isSamePlace(place->second, here)) return true;
         return false;
     }
 
-    Places placesOf(const osg::Drawable& drawable) const {
-        Places places;
-        for (const osg::NodePath& path : drawable.getParentalNodePaths()) {
-            if (!_under.holds(path)) continue;
-            const osg::Matrixd place = osg::computeLocalToWorld(path) * _eyeFromWorld;
-            places.insert({place(3, 0), place});
-        }
-        return places;
-    }
-
-    WaysUnder _under;
-    const osg::Matrixd& _eyeFromWorld;
-    std::unordered_map<const osg::Drawable*, Places> _places;
+private:
+    const Part& _part;
+    const bool _first;
+    const osg::Matrixd _eyeFromWorld;
+    osg::Matrixd _eyeFromHere;
+    bool _isUnder = false;
+    /// Where they stand in eye space, by the x of that.
+    std::unordered_map<const osg::Drawable*, std::multimap<double, osg::Matrixd>> _found;
 };
 
 bool isPlainDepth(const osg::StateAttribute* attribute) {
@@ -170,11 +195,38 @@ bool isFilledSet(const osg::StateSet& set) {
 
 const osg::Node& rootOf(const osg::Node& node) { return node.getNumParents() ? rootOf(*node.getParent(0)) : node; }
 
+/// True if a node's bound may be seen, or is not known.
+bool mayBeSeen(const osg::Node& node, const osg::Camera* camera) {
+    if (!node.getBound().valid() || !camera) return true;
+    for (osg::NodePath path : node.getParentalNodePaths()) {
+        path.pop_back(); // its bound is in its parent's frame
+        osg::Polytope seen;
+        seen.setToUnitFrustum(false, false);
+        seen.transformProvidingInverse(osg::computeLocalToWorld(path) * camera->getViewMatrix() *
+                                       camera->getProjectionMatrix());
+        if (seen.contains(node.getBound())) return true;
+    }
+    return false;
+}
+
 } // namespace
 
 const osg::Matrixd& matrixOf(const osg::RefMatrix* matrix) {
     static const osg::Matrixd identity;
     return matrix ? *matrix : identity;
+}
+
+double placeMargin(const osg::Matrixd& place) {
+    return 1e-9 * (1.0 + std::abs(place(3, 0)) + std::abs(place(3, 1)) + std::abs(place(3, 2)));
+}
+
+bool isSamePlace(const osg::Matrixd& a, const osg::Matrixd& b, double rounding) {
+    double difference = 0.0, size = 0.0;
+    for (int i = 0; i < 16; ++i) {
+        difference = std::max(difference, std::abs(a.ptr()[i] - b.ptr()[i]));
+        size = std::max(size, std::abs(a.ptr()[i]));
+    }
+    return difference <= 1e-9 * size + rounding;
 }
 
 bool isSameLens(const osg::Matrixd& a, const osg::Matrixd& b) {
@@ -197,33 +249,52 @@ std::vector<DrawnLeaf> leavesIn(osgUtil::RenderBin& bin) {
 }
 
 LeafSet receiversAmong(const std::vector<DrawnLeaf>& leaves, const Selection& receiver,
-                       const osg::Matrixd& eyeFromWorld) {
-    ReceiverTest isReceiver(receiver, eyeFromWorld);
+                       const osg::Matrixd& eyeFromWorld, const osg::Node& scene) {
+    const Part part(receiver, scene);
+    WaysUnder waysUnder(part);
+    osg::ref_ptr<FoundBelow> below; // null until it is asked for
     LeafSet result;
-    for (const DrawnLeaf& entry : leaves)
-        if (isReceiver(*entry.leaf)) result.insert(entry.leaf);
+    for (const DrawnLeaf& entry : leaves) {
+        const Ways ways = waysUnder(*entry.leaf->_drawable);
+        const bool isOpen = ways.some && !ways.all;
+        if (isOpen && !below) below = new FoundBelow(part, eyeFromWorld);
+        if (isOpen ? below->hasAt(*entry.leaf->_drawable, modelviewOf(*entry.leaf)) : ways.some)
+            result.insert(entry.leaf);
+    }
     return result;
 }
 
-std::set<const osg::Drawable*> drawablesUnder(const Selection& selection,
-                                              const std::vector<const osg::Drawable*>& drawables) {
-    WaysUnder waysUnder(selection);
+std::set<const osg::Drawable*>
+drawablesUnder(const Selection& selection, const std::vector<const osg::Drawable*>& drawables, const osg::Node& scene) {
+    const Part part(selection, scene);
+    WaysUnder waysUnder(part);
+    osg::ref_ptr<FoundBelow> below; // null until it is asked for
     std::set<const osg::Drawable*> result;
-    for (const osg::Drawable* drawable : drawables)
-        if (waysUnder(*drawable).some) result.insert(drawable);
+    for (const osg::Drawable* drawable : drawables) {
+        const Ways ways = waysUnder(*drawable);
+        const bool isOpen = ways.some && !ways.all;
+        if (isOpen && !below) below = new FoundBelow(part, {});
+        if (isOpen ? below->has(*drawable) : ways.some) result.insert(drawable);
+    }
     return result;
 }
 
 std::string whyMissing(const Selection& selection, const char* role, const osg::Node& from,
                        osgUtil::RenderStage& stage) {
     const std::vector<DrawnLeaf> all = leavesBelow(stage, INT_MAX);
-    if (!receiversAmong(all, selection, *stage.getInitialViewMatrix()).empty())
+    if (!receiversAmong(all, selection, *stage.getInitialViewMatrix(), from).empty())
         return std::string("the ") + role +
                " is drawn after the shadows, in a bin above 8, as transparent objects are. Name an opaque one.";
     if (selection.node && &rootOf(*selection.node) != &rootOf(from))
         return std::string("the ") + role + " '" + selection.node->getName() +
                "' is not in this scene graph. Add it to the scene.";
-    return "";
+    if (selection.node && !mayBeSeen(*selection.node, stage.getCamera())) return "";
+    const Part part(selection, from);
+    const osg::ref_ptr<FoundBelow> below = new FoundBelow(part, {}, true);
+    if (below->any()) return "";
+    const std::string name = selection.node ? " '" + nameOf(*selection.node) + "'" : "";
+    return "nothing that is drawn is found under the " + (role + name) +
+           ". Name a node that hands on what it draws to every osg::NodeVisitor, and check the mask.";
 }
 
 bool isModeOn(const std::vector<DrawnLeaf>& leaves, osg::StateAttribute::GLMode mode) {

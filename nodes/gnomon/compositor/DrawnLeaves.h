@@ -28,6 +28,11 @@ const osg::Matrixd& matrixOf(const osg::RefMatrix* matrix);
 inline const osg::Matrixd& modelviewOf(const osgUtil::RenderLeaf& leaf) { return matrixOf(leaf._modelview.get()); }
 inline const osg::Matrixd& projectionOf(const osgUtil::RenderLeaf& leaf) { return matrixOf(leaf._projection.get()); }
 
+/// How far apart places in eye space may be that are the same product of doubles, taken in another order.
+double placeMargin(const osg::Matrixd& place);
+/// True if two places are one, but for that and for `rounding`.
+bool isSamePlace(const osg::Matrixd& a, const osg::Matrixd& b, double rounding = 0.0);
+
 /// True if two views have the same lens: the same but for near and far, which a nested camera finds for itself.
 bool isSameLens(const osg::Matrixd& a, const osg::Matrixd& b);
 
@@ -39,12 +44,16 @@ std::vector<DrawnLeaf> leavesBelow(osgUtil::RenderStage& stage, int number);
 std::vector<DrawnLeaf> leavesIn(osgUtil::RenderBin& bin);
 
 /// Those of them that draw part of `receiver`. Reads the scene graph: call in cull.
+///
+/// Cost    a look at what is above each leaf. Where a node hands the cull others than its children, as osgTerrain's tiles do,
+///         a visit of what is under the receiver.
+/// @param scene  a node of the graph that is culled.
 LeafSet receiversAmong(const std::vector<DrawnLeaf>& leaves, const Selection& receiver,
-                       const osg::Matrixd& eyeFromWorld);
+                       const osg::Matrixd& eyeFromWorld, const osg::Node& scene);
 
 /// Those of some drawables that lie under `selection`, by some way from above. Reads the scene graph: call in cull.
-std::set<const osg::Drawable*> drawablesUnder(const Selection& selection,
-                                              const std::vector<const osg::Drawable*>& drawables);
+std::set<const osg::Drawable*>
+drawablesUnder(const Selection& selection, const std::vector<const osg::Drawable*>& drawables, const osg::Node& scene);
 
 /// Why none of the leaves that a stage draws before its ShadowBin is of `selection`, as a cause for diagnose(); empty if
 /// it merely is out of sight. @param role  what the selection is to be: "receiver". @param from  a node of the graph.

@@ -70,7 +70,7 @@ void applyPositions(osg::State& state, osgUtil::RenderStage& stage, const osg::M
 
 void ReflectionEffect::prepare(osgUtil::RenderStage& stage, const std::vector<DrawnLeaf>& leaves) {
     const osg::Matrixd& eyeFromWorld = *stage.getInitialViewMatrix();
-    const auto leavesOfSurface = receiversAmong(leaves, surface, eyeFromWorld);
+    const auto leavesOfSurface = receiversAmong(leaves, surface, eyeFromWorld, *node);
     for (const DrawnLeaf& entry : leaves)
         if (leavesOfSurface.count(entry.leaf)) _surface.push_back(entry);
     if (_surface.empty()) {
@@ -80,7 +80,7 @@ void ReflectionEffect::prepare(osgUtil::RenderStage& stage, const std::vector<Dr
     if (!bounds) return _surface.clear();
     _bounds = *bounds;
     _leaves = mirrored->sortedLeaves();
-    const auto image = receiversAmong(_leaves, surface, eyeFromWorld * toOsg(reflectionMatrix(eyePlane)));
+    const auto image = receiversAmong(_leaves, surface, eyeFromWorld * toOsg(reflectionMatrix(eyePlane)), *node);
     const auto isSurface = [&image](const DrawnLeaf& entry) { return image.count(entry.leaf) > 0; };
     _leaves.erase(std::remove_if(_leaves.begin(), _leaves.end(), isSurface), _leaves.end());
 }

@@ -106,7 +106,7 @@ std::set<const osg::Drawable*> notCastingBy(const EnlistedTechnique& entry, cons
     if (!entry.technique->hasReceiver()) return result;
     std::vector<const osg::Drawable*> all;
     for (const auto& piece : casters.list) all.push_back(piece->drawable);
-    const std::set<const osg::Drawable*> named = drawablesUnder(entry.technique->getReceiver(), all);
+    const std::set<const osg::Drawable*> named = drawablesUnder(entry.technique->getReceiver(), all, *entry.group);
     result.insert(named.begin(), named.end());
     return result;
 }
@@ -154,7 +154,8 @@ std::string whyNoPicture(const EnlistedTechnique& entry) {
 Leaves receivingOf(const EnlistedTechnique& entry, const std::vector<DrawnLeaf>& leaves, osgUtil::RenderStage& stage) {
     const bool named = entry.technique->hasReceiver();
     LeafSet receivers;
-    if (named) receivers = receiversAmong(leaves, entry.technique->getReceiver(), *stage.getInitialViewMatrix());
+    if (named)
+        receivers = receiversAmong(leaves, entry.technique->getReceiver(), *stage.getInitialViewMatrix(), *entry.group);
     Leaves receiving;
     for (const DrawnLeaf& leaf : leaves)
         if (isSameLens(projectionOf(*leaf.leaf), *entry.projection) && (!named || receivers.count(leaf.leaf) > 0))
@@ -177,7 +178,7 @@ bool reportOtherLens(const TechniqueInStage& asked) {
     if (others.empty()) return false;
     Selection receiver = entry.technique->getReceiver();
     if (!entry.technique->hasReceiver()) receiver.node = const_cast<ShadowCasterGroup*>(entry.group.get());
-    const LeafSet meant = receiversAmong(others, receiver, *asked.stage.getInitialViewMatrix());
+    const LeafSet meant = receiversAmong(others, receiver, *asked.stage.getInitialViewMatrix(), *entry.group);
     const auto first =
         std::find_if(others.begin(), others.end(), [&](auto& each) { return meant.count(each.leaf) > 0; });
     if (first == others.end()) return false;

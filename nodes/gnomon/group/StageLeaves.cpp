@@ -15,8 +15,8 @@ const osgUtil::RenderLeaf* firstCaster(const ShadowCasterGroup& group, const std
                                        const osg::Matrixd& eyeFromWorld) {
     Selection all;
     all.node = const_cast<ShadowCasterGroup*>(&group);
-    const auto below = receiversAmong(leaves, all, eyeFromWorld);
-    const auto casting = receiversAmong(leaves, group.getCasters(), eyeFromWorld);
+    const auto below = receiversAmong(leaves, all, eyeFromWorld, group);
+    const auto casting = receiversAmong(leaves, group.getCasters(), eyeFromWorld, group);
     const auto casts = [&](const DrawnLeaf& entry) { return below.count(entry.leaf) && casting.count(entry.leaf); };
     const auto found = std::find_if(leaves.begin(), leaves.end(), casts);
     return found == leaves.end() ? nullptr : found->leaf;
