@@ -33,7 +33,6 @@ class VolumeCache;
 /// - Facets decide what faces the light, not smoothed normals. Coarse models show them near the terminator.
 /// - Casters that are clear in part cast as if they were solid, and diagnose() says so.
 /// - Casters that draw themselves, or are made of patches, cast nothing. diagnose() says so.
-/// - A caster that a cull callback hides can leave false light or shadow where one looks through it.
 /// - Counts have up to seven bits. More casters between a light and a place take several rounds. If one connected mesh
 ///   lies over itself more often, its shadow may have holes, and diagnose() says so.
 /// - Casters are kept as floats about the place where most triangles are. Others at 100 km are right to a centimetre.

@@ -23,6 +23,7 @@ namespace gnomon {
 class ShadowCasterGroup;
 
 class Casters;
+class ProgramCauses;
 
 /// A drawable that casts, at one place.
 struct CasterBox {
@@ -70,6 +71,7 @@ struct GNOMON_EXPORT ViewFrame {
     std::vector<const osgUtil::RenderLeaf*> seen; ///< leaves that can receive: those, or all of the view.
     bool movesReceivers =
         false; ///< A program moves some of `seen` out of their boxes: these may be anywhere in the view.
+    const ProgramCauses* drawn = nullptr; ///< tells which casters the view draws; null if nobody knows.
 
     /// Takes the group's frame to clip space.
     osg::Matrixd clipFromGroup() const { return eyeFromGroup * projection; }

@@ -9,6 +9,10 @@
 #include <gnomon/TracedShadowTechnique.h>
 
 #include <gtest/gtest.h>
+#include <osg/ConvexPlanarOccluder>
+#include <osg/MatrixTransform>
+#include <osg/OccluderNode>
+#include <osg/Program>
 
 #include <algorithm>
 #include <array>
@@ -62,6 +66,90 @@ TEST(Volume, CountsFromBehindWhereTheEyeIsInShadow) {
     given.light = sunAt(-100.0, 25.0);
     given.view = perspective({1.0, -20.0, 1.7}, {4.0, 20.0, 1.5}, 320, 240, 60.0, 0.1, 300.0);
     expectFloor(given);
+}
+
+namespace {
+
+struct DrawsNothing : osg::Drawable::DrawCallback {
+    void drawImplementation(osg::RenderInfo&, const osg::Drawable*) const override {}
+};
+struct CullsNothing : osg::NodeCallback {
+    void operator()(osg::Node*, osg::NodeVisitor*) override {}
+};
+
+void setProgram(osg::Node& node, osg::Shader::Type type, const char* text) {
+    osg::ref_ptr<osg::Program> program = new osg::Program;
+    program->addShader(new osg::Shader(type, text));
+    node.getOrCreateStateSet()->setAttributeAndModes(program);
+}
+
+/// Keeps all behind a square above the caster from being drawn.
+osg::ref_ptr<osg::Node> occluderAbove() {
+    osg::ref_ptr<osg::ConvexPlanarOccluder> square = new osg::ConvexPlanarOccluder;
+    for (const osg::Vec3& corner : {osg::Vec3(-1.2f, -1.2f, 3.0f), osg::Vec3(1.2f, -1.2f, 3.0f),
+                                    osg::Vec3(1.2f, 1.2f, 3.0f), osg::Vec3(-1.2f, 1.2f, 3.0f)})
+        square->getOccluder().add(corner);
+    osg::ref_ptr<osg::OccluderNode> node = new osg::OccluderNode;
+    node->setOccluder(square);
+    return node;
+}
+
+} // namespace
+
+/// Its shadow is [-3, 0] × [-1, 1] m, at 32 pixels a metre, and nothing hides a part of it.
+TEST(Volume, OfACasterThatTheViewDoesNotDrawLiesWhereItsShadowIsAlone) {
+    const char* ways[] = {
+        "cull callback", "draw callback", "discarded",      "moved",
+        "small feature", "occluder",      "behind the eye", "behind the eye and before the near plane"};
+    for (int way = 0; way < 8; ++way)
+        for (const bool open : {false, true}) {
+            const Mesh body = box({-1.0, -1.0, 1.0}, {1.0, 1.0, 2.0}), sheet = square(1.0, 2.0);
+            Scene scene = groundScene({open ? sheet : body});
+            osg::Node& caster = *find(*scene.root, "caster");
+            View view = fromAbove(4.0);
+            if (way == 0) caster.setCullCallback(new CullsNothing);
+            if (way == 1) caster.asGeode()->getDrawable(0)->setDrawCallback(new DrawsNothing);
+            if (way == 2) setProgram(caster, osg::Shader::FRAGMENT, "void main() { discard; }");
+            if (way == 3)
+                setProgram(caster, osg::Shader::VERTEX,
+                           "void main() { vec4 v = gl_Vertex; v.y += 50.0; "
+                           "gl_Position = gl_ModelViewProjectionMatrix * v; gl_FrontColor = vec4(0.8); }");
+            if (way == 5) scene.root->addChild(occluderAbove());
+            if (way >= 6) {
+                view.view = osg::Matrixd::lookAt(osg::Vec3d(0.0, 0.0, 0.5), osg::Vec3d(), osg::Vec3d(0.0, 1.0, 0.0));
+                view.projection = osg::Matrixd::ortho(-4.0, 4.0, -4.0, 4.0, 0.1, 10.0);
+            }
+            // A pole that reaches behind the eye: the near plane is moved there.
+            if (way == 7) scene.content->addChild(node(box({3.5, 3.5, 0.1}, {3.6, 3.6, 3.0}), "pole"));
+            scene.addShadow(new ShadowVolumeTechnique);
+            scene.group->setCasters({find(*scene.root, "caster")});
+            Camera camera(scene.root, view);
+            osg::Camera& settings = *camera.viewer().getCamera();
+            if (way == 4) {
+                settings.setCullingMode(settings.getCullingMode() | osg::CullSettings::SMALL_FEATURE_CULLING);
+                settings.setSmallFeatureCullingPixelSize(200.0f);
+            }
+            if (way == 7) settings.setComputeNearFarMode(osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES);
+            const Picture picture = camera.frame();
+            EXPECT_EQ(picture.count(shadowedGround), (open ? 64 : 96) * 64) << ways[way] << (open ? ", open" : "");
+        }
+}
+
+/// Nine of one drawable at a third of the size; the one in the middle is left out.
+TEST(Volume, OfOneOfManyPlacesOfADrawableThatIsLeftOutHidesNothing) {
+    Scene scene = groundScene({});
+    const osg::ref_ptr<osg::Geode> body = node(box({-0.25, -0.25, 0.5}, {0.25, 0.25, 1.0}), "caster");
+    for (int i = 0; i < 9; ++i) {
+        const osg::ref_ptr<osg::MatrixTransform> place =
+            new osg::MatrixTransform(osg::Matrixd::translate(-2.0 + 2.0 * (i % 3), -2.0 + 2.0 * (i / 3), 0.0));
+        place->addChild(body);
+        if (i == 4) place->setCullCallback(new CullsNothing);
+        scene.content->addChild(place);
+    }
+    scene.addShadow(new ShadowVolumeTechnique);
+    const Picture picture = render(scene.root, fromAbove(4.0));
+    // Shadows are [-1.25, -0.25] × [-0.25, 0.25] m about each place: 32 × 16 pixels, of which no body hides any.
+    EXPECT_EQ(picture.count(shadowedGround), 9 * 32 * 16);
 }
 
 // What a light's place by the eye is rounded to changes with each view.

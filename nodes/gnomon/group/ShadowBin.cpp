@@ -378,6 +378,7 @@ void ShadowBin::addJobs(const TechniqueInStage& asked, const GroupLights& found,
     whole.strengths = found.strengths;
     whole.options.skipsUntouched = _options.skipsUntouched; // as all who share this bin want it
     whole.key.stage = getStage();
+    whole.drawn = &asked.drawn.programs;
     for (const ReceiverPart& part : parts) {
         const bool isFirst = &part == &parts.front();
         ViewFrame view = viewOf(whole, asked, part);

@@ -38,10 +38,10 @@ ViewFrame viewOf(const EnlistedTechnique& entry, const osg::Viewport& viewport) 
     return view;
 }
 
-ProgramCauses::ProgramCauses(osgUtil::RenderStage& stage) : _eyeFromWorld(*stage.getInitialViewMatrix()) {
-    std::map<const osgUtil::StateGraph*, ProgramPlaces> known;
-    for (const DrawnLeaf& entry : leavesBelow(stage, std::numeric_limits<int>::max())) {
-        const auto [places, isNew] = known.try_emplace(entry.leaf->_parent);
+ProgramCauses::ProgramCauses(osgUtil::RenderStage& stage)
+    : _eyeFromWorld(*stage.getInitialViewMatrix()), _all(leavesBelow(stage, std::numeric_limits<int>::max())) {
+    for (const DrawnLeaf& entry : _all) {
+        const auto [places, isNew] = _places.try_emplace(entry.leaf->_parent);
         if (isNew) places->second = placesIn(entry.leaf->_parent);
         if (places->second.unseen) {
             _unseen.push_back(entry);
@@ -55,6 +55,33 @@ ProgramCauses::ProgramCauses(osgUtil::RenderStage& stage) : _eyeFromWorld(*stage
     for (const std::vector<DrawnLeaf>* leaves : {&_moving, &_unseen})
         for (const DrawnLeaf& entry : *leaves) moved->insert(entry.leaf);
     _moved = moved;
+}
+
+const std::vector<ProgramCauses::Standing>& ProgramCauses::standing() const {
+    if (!_standing.empty()) return _standing;
+    for (const DrawnLeaf& entry : _all) {
+        const ProgramPlaces& places = _places.at(entry.leaf->_parent);
+        const bool stands = !places.movesVertices && !places.setsDepth && !places.discards;
+        if (stands && !entry.leaf->_drawable->getDrawCallback())
+            _standing.emplace_back(entry.leaf->_drawable.get(), modelviewOf(*entry.leaf)(3, 0), entry.leaf);
+    }
+    std::sort(_standing.begin(), _standing.end());
+    return _standing;
+}
+
+bool ProgramCauses::draws(const Caster& caster, const ViewFrame& view) const {
+    const osg::Matrixd place = caster.groupFromLocal * view.eyeFromGroup;
+    const double rounding = 1e-14 * caster.groupFromLocal.getTrans().length(), margin = placeMargin(place) + rounding;
+    const auto& all = standing();
+    const auto from =
+        std::lower_bound(all.begin(), all.end(), Standing{caster.drawable, place(3, 0) - margin, nullptr});
+    for (auto found = from; found != all.end(); ++found) {
+        const auto& [drawable, x, leaf] = *found;
+        if (drawable != caster.drawable || x > place(3, 0) + margin) return false;
+        if (isSamePlace(modelviewOf(*leaf), place, rounding) && isSameLens(projectionOf(*leaf), view.projection))
+            return true;
+    }
+    return false;
 }
 
 void ProgramCauses::report(const FrameReport& report, const ShadowCasterGroup& group, const Leaves& receiving,

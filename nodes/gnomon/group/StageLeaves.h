@@ -5,6 +5,8 @@
 #include <gnomon/ViewFrame.h>
 #include <gnomon/base/Fingerprint.h>
 #include <gnomon/base/FrameDiagnosis.h>
+#include <gnomon/base/ProgramText.h>
+#include <gnomon/casters/Caster.h>
 #include <gnomon/casters/Casting.h>
 #include <gnomon/compositor/DrawnLeaves.h>
 #include <gnomon/compositor/LateReceivers.h>
@@ -20,6 +22,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace gnomon {
@@ -47,13 +50,19 @@ ViewFrame viewOf(const EnlistedTechnique& entry, const osg::Viewport& viewport);
 
 using Leaves = std::vector<const osgUtil::RenderLeaf*>;
 
-/// What the programs of one view do that shadows cannot follow, for diagnose(). Asked for once a view.
+/// What the programs of one view do that shadows cannot follow, for diagnose(); and which casters the view draws where they stand.
+/// Asked for once a view.
 ///
-/// Cost    a look at each state's program, and once at each program's text.
+/// Cost    a look at each state's program, and once at each program's text. draws(): the leaves are sorted once.
 class ProgramCauses {
 public:
     ProgramCauses() = default;
     explicit ProgramCauses(osgUtil::RenderStage& stage);
+
+    /// True if the view has a leaf of a caster at its place, whose vertices, depth and fragments are those that its arrays give:
+    /// its depth stands, then, and hides what is behind it. What a cull or a draw callback, an occluder or small feature culling
+    /// leaves out, does not.
+    bool draws(const Caster& caster, const ViewFrame& view) const;
 
     /// For a technique of this group with these receivers.
     void report(const FrameReport& report, const ShadowCasterGroup& group, const Leaves& receiving,
@@ -72,6 +81,14 @@ private:
     std::shared_ptr<const LeafSet> _moved;           ///< Both, to be asked for by address.
     std::set<const osgUtil::RenderLeaf*> _setDepths; ///< Their program sets a depth of its own.
     osg::Matrixd _eyeFromWorld;
+
+    /// A leaf that is drawn as its arrays stand: its drawable, the x of its place in eye space, and it.
+    using Standing = std::tuple<const osg::Drawable*, double, const osgUtil::RenderLeaf*>;
+    const std::vector<Standing>& standing() const;
+
+    std::vector<DrawnLeaf> _all;
+    std::map<const osgUtil::StateGraph*, ProgramPlaces> _places;
+    mutable std::vector<Standing> _standing; ///< sorted; empty until it is asked for.
 };
 
 /// What one stage draws, as its ShadowBin of number `number` sees it after the cull.

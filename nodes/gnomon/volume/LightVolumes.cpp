@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Plane.h>
+#include <gnomon/casters/Casters.h>
 #include <gnomon/compositor/DrawnLeaves.h>
 #include <gnomon/geometry/Across.h>
+#include <gnomon/group/StageLeaves.h>
 #include <gnomon/silhouette/StencilBatches.h>
 #include <gnomon/volume/LightVolumes.h>
 
@@ -134,8 +136,20 @@ bool isInSight(const VolumeHull& hull) {
              isBeyond([](const glm::dvec4& at) { return at.z < -at.w; }));
 }
 
+/// True if a part is, or may be, of a caster that is not drawn: of the joined ones only boxes tell.
+bool isUnseen(const LightVolumes& volumes, const SilhouetteMesh::Part& part, const UnseenCasters& unseen) {
+    if (unseen.boxes.empty()) return false;
+    glm::dvec3 low(never), high(-never);
+    for (const glm::dvec4& corner :
+         boxCorners(glm::dvec3(part.low), glm::dvec3(part.high), volumes.caster().sceneFromMesh)) {
+        low = glm::min(low, glm::dvec3(corner));
+        high = glm::max(high, glm::dvec3(corner));
+    }
+    return unseen.touch(low, high);
+}
+
 /// Adds the parts of a mesh that can be seen.
-void lookAt(LightVolumes& volumes, const glm::dmat4& clipFromScene, SeenVolumes& all) {
+void lookAt(LightVolumes& volumes, const glm::dmat4& clipFromScene, const UnseenCasters& unseen, SeenVolumes& all) {
     const SilhouetteMesh& mesh = *volumes.caster().mesh;
     const glm::dmat4 clipFromMesh = clipFromScene * volumes.caster().sceneFromMesh;
     if (mesh.parts.empty()) return;
@@ -148,7 +162,8 @@ void lookAt(LightVolumes& volumes, const glm::dmat4& clipFromScene, SeenVolumes&
         const auto bounds = boundsOf(hull);
         if (!bounds) continue;
         const bool cut = std::any_of(hull.begin(), hull.begin() + 8, [](const auto& at) { return at.z <= -at.w; });
-        const bool shows = isInSight(hull) && !volumes.caster().hides(mesh.parts[i], start.eye);
+        const bool shows = isInSight(hull) && (!volumes.caster().hides(mesh.parts[i], start.eye) ||
+                                               isUnseen(volumes, mesh.parts[i], unseen));
         const std::optional<int> holding =
             shows ? std::nullopt : volumesHolding(start, mesh, volumes.volumes(), i, cut);
         if (holding == 0 && volume.count == 0) continue;
@@ -188,6 +203,36 @@ ReceiverBox receiversOf(const ViewFrame& view, const SceneFrame& scene) {
         expand(all, box, sceneFromBox);
     }
     return all;
+}
+
+bool UnseenCasters::touch(const glm::dvec3& low, const glm::dvec3& high) const {
+    const auto margin = [](const glm::dvec3& a, const glm::dvec3& b) {
+        return 1e-6 * glm::length(glm::max(glm::abs(a), glm::abs(b)));
+    };
+    const double by = margin(low, high);
+    const auto start = std::lower_bound(boxes.begin(), boxes.end(), low.x - by - widest,
+                                        [](const ReceiverBox& box, double x) { return box.low.x < x; });
+    for (auto box = start; box != boxes.end() && box->low.x <= high.x + by; ++box)
+        if (glm::all(glm::lessThanEqual(box->low, high + by)) && glm::all(glm::greaterThanEqual(box->high, low - by)))
+            return true;
+    return false;
+}
+
+UnseenCasters unseenCasters(const CasterLayers& casters, const ViewFrame& view, const SceneFrame& scene) {
+    UnseenCasters unseen;
+    if (!view.drawn) return unseen;
+    const glm::dmat4 clipFromScene = scene.clipFromScene(view);
+    for (const auto& layer : {casters.still, casters.moving})
+        for (const auto& piece : layer->pieces) {
+            if (piece->hiding == Hiding::Neither || view.drawn->draws(*piece, view)) continue;
+            const ReceiverBox box{scene.point(piece->bounds._min), scene.point(piece->bounds._max)};
+            const auto corners = boxCorners(box.low, box.high, clipFromScene);
+            if (!screenBounds({corners.begin(), corners.end()})) continue; // as out of sight
+            unseen.boxes.push_back(box);
+            unseen.widest = std::max(unseen.widest, box.high.x - box.low.x);
+        }
+    std::sort(unseen.boxes.begin(), unseen.boxes.end(), [](const auto& a, const auto& b) { return a.low.x < b.low.x; });
+    return unseen;
 }
 
 bool VolumeCaster::hides(const SilhouetteMesh::Part& part, const glm::dvec3& eye) const {
@@ -316,9 +361,9 @@ double SeenVolumes::vertexStep(double width, double near) const {
 }
 
 std::optional<SeenVolumes> seenVolumes(const std::vector<osg::ref_ptr<LightVolumes>>& all,
-                                       const glm::dmat4& clipFromScene) {
+                                       const glm::dmat4& clipFromScene, const UnseenCasters& unseen) {
     SeenVolumes result;
-    for (const osg::ref_ptr<LightVolumes>& volumes : all) lookAt(*volumes, clipFromScene, result);
+    for (const osg::ref_ptr<LightVolumes>& volumes : all) lookAt(*volumes, clipFromScene, unseen, result);
     if (result.parts.empty()) return std::nullopt;
     return result;
 }

@@ -20,6 +20,8 @@
 
 namespace gnomon {
 
+class CasterLayers;
+
 /// Bounds of all that can receive in a view, in the scene. Not finite if they are not known; low > high if there is nothing.
 struct ReceiverBox {
     glm::dvec3 low, high;
@@ -32,6 +34,20 @@ struct ReceiverBox {
 };
 
 ReceiverBox receiversOf(const ViewFrame& view, const SceneFrame& scene);
+
+/// Casters within a view that it does not draw: nothing is hidden behind them. Sorted boxes, in the scene.
+struct UnseenCasters {
+    std::vector<ReceiverBox> boxes;
+    double widest = 0.0; ///< along x.
+
+    /// True if a box has a point in common with any of these, but for the rounding of floats.
+    bool touch(const glm::dvec3& low, const glm::dvec3& high) const;
+};
+
+/// Nearly always none.
+///
+/// Cost  a look at each caster's leaf.
+UnseenCasters unseenCasters(const CasterLayers& casters, const ViewFrame& view, const SceneFrame& scene);
 
 /// A mesh that casts, with its edges, where it stands in the scene.
 struct VolumeCaster {
@@ -146,8 +162,9 @@ struct SeenVolumes {
     bool overflow(unsigned capacity) const;
 };
 
+/// @param unseen  hide nothing.
 /// @return nullopt if none can be seen.
 std::optional<SeenVolumes> seenVolumes(const std::vector<osg::ref_ptr<LightVolumes>>& all,
-                                       const glm::dmat4& clipFromScene);
+                                       const glm::dmat4& clipFromScene, const UnseenCasters& unseen = {});
 
 } // namespace gnomon

@@ -63,7 +63,7 @@ std::optional<SeenVolumes> VolumeCache::see(const CasterLayers& casters, const V
     const std::vector<VolumeCaster> all = castersOf(casters);
     found.volumes.resize(all.size());
     for (std::size_t i = 0; i < all.size(); ++i) update(found.volumes[i], all[i], light, *found.receivers);
-    return seenVolumes(found.volumes, scene.clipFromScene(view));
+    return seenVolumes(found.volumes, scene.clipFromScene(view), unseenCasters(casters, view, scene));
 }
 
 /// Those of another light give up their memory, unless they are still drawn.
