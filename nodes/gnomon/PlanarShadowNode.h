@@ -36,6 +36,8 @@ struct PlanarPrograms;
 /// - One stencil bit a light, and one more for several planes or techniques of one light.
 /// Limits
 /// - Receivers are flat. Casters do not shadow one another. diagnose() names a surface in view that stays lit.
+/// - A level surface lies in the plane if it is nearer than 0.0001 of its drawable's radius: then it receives, and does not cast.
+///   diagnose() names one that is farther, or a named receiver that leaves the plane, with the distance.
 /// - A plane receives on its lit side only.
 /// - Casters that are clear in part cast as if they were solid, and diagnose() says so.
 /// - Casters that draw themselves, or are made of patches, cast nothing. diagnose() says so.
@@ -108,6 +110,8 @@ public:
 
     /// True if the surface's box ends in one of the planes, as seen along its normal.
     bool shadowsSurface(const ViewFrame& view, const osgUtil::RenderLeaf& leaf) const override;
+    /// How far a surface is from the plane, if that is more than 0.0001 of its radius, and yet close to it.
+    std::string flawOn(const ViewFrame& view, const osgUtil::RenderLeaf& leaf) const override;
     /// Changes with the planes.
     std::uint64_t surfacesKey() const override;
 

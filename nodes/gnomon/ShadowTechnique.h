@@ -104,6 +104,9 @@ public:
     /// True if the technique can shadow a surface that is among its receivers. Default true.
     /// @param leaf  a leaf of the surface, in view.
     virtual bool shadowsSurface(const ViewFrame& view, const osgUtil::RenderLeaf& leaf) const;
+    /// What makes the shadow on a surface that is among its receivers wrong in part, as a cause for report(). Asked as
+    /// shadowsSurface() is. Default: nothing.
+    virtual std::string flawOn(const ViewFrame& view, const osgUtil::RenderLeaf& leaf) const;
     /// Changes with what shadowsSurface() says. If it is not 0, the default, the compositor names a surface that its shadow
     /// could reach and that no technique shadows.
     virtual std::uint64_t surfacesKey() const { return 0; }

@@ -224,12 +224,14 @@ TEST(UnshadowedSurfaces, AFloorMayBeTheTopOfASlab) {
     EXPECT_EQ(trial.said(), nothing);
 }
 
-/// 12 m wide: what is 2 cm out of the plane may be taken for a part of it by depths; what is 10 cm out of it is not.
+/// 12 m wide: what is 2 cm out of the plane may be taken for a part of it by depths, and then casts on itself; what is 10 cm out
+/// of it is not.
 TEST(UnshadowedSurfaces, ACarpetThatStandsOutOfThePlaneIsNamed) {
     const auto carpet = [](double height) { return node(box({-9.0, -6.0, -0.3}, {3.0, 6.0, height}), "carpet"); };
     Trial thick(carpet(0.1)), thin(carpet(0.02));
     EXPECT_EQ(thick.said(), leavesLit(thick, "carpet"));
-    EXPECT_EQ(thin.said(), nothing);
+    ASSERT_EQ(thin.said().size(), 1u);
+    EXPECT_NE(thin.said()[0].find("'carpet' is 0.02 above the plane (0 0 1 0)"), std::string::npos) << thin.said()[0];
 }
 
 /// The far side of a screen that is drawn from one side alone, as that of a mirror's floor is.

@@ -111,8 +111,22 @@ std::set<const osg::Drawable*> notCastingBy(const EnlistedTechnique& entry, cons
     return result;
 }
 
+/// What is wrong with the shadow on some receiver.
+std::string flawedCause(const TechniqueInStage& asked) {
+    const auto& [entry, all, drawn, stage] = asked;
+    const ViewFrame view = viewOf(entry, *stage.getViewport());
+    const bool named = entry.technique->hasReceiver();
+    for (const auto* leaves : {&drawn.early, &drawn.late.leaves})
+        for (const osgUtil::RenderLeaf* leaf : receivingOf(entry, *leaves, stage)) {
+            if (!named && !(isShaded(leaf->_parent) && writesDepth(leaf->_parent))) continue;
+            if (const std::string flaw = entry.technique->flawOn(view, *leaf); !flaw.empty()) return flaw;
+        }
+    return {};
+}
+
 std::string unshadowedCause(const TechniqueInStage& asked, const ShadowLight& light, const Casters& casters) {
     const auto& [entry, all, drawn, stage] = asked;
+    if (const std::string flaw = flawedCause(asked); !flaw.empty()) return flaw;
     Leaves surfaces = surfacesOf(entry, drawn);
     for (const EnlistedTechnique& other : all) {
         if (other.group != entry.group || surfaces.empty()) continue;

@@ -35,6 +35,8 @@ osg::ref_ptr<DrawWatch> ShadowTechnique::watch(const ViewFrame&) const { return 
 
 bool ShadowTechnique::shadowsSurface(const ViewFrame&, const osgUtil::RenderLeaf&) const { return true; }
 
+std::string ShadowTechnique::flawOn(const ViewFrame&, const osgUtil::RenderLeaf&) const { return {}; }
+
 bool ShadowTechnique::isLit(const ShadowProbe& probe, const glm::dvec3& point) const {
     return probe.reachesFrom(point);
 }

@@ -42,6 +42,45 @@ struct Heights {
     std::vector<double> of, thickness; ///< the former 0 of what lies in the plane.
 };
 
+/// The triangles of a mesh that lie in a plane by flatness, drawable by drawable.
+struct LevelTriangles {
+    LevelTriangles(const PlacedMesh& placed, const glm::dvec4& plane, const Heights& of)
+        : has(placed.mesh->triangles->size() / 3) {
+        const CasterMesh& mesh = *placed.mesh;
+        const osg::DrawElementsUInt& all = *mesh.triangles;
+        const glm::dvec3 normal(glm::transpose(placed.sceneFromMesh) * plane);
+        for (std::size_t k = 0; k < mesh.drawn.size(); ++k) {
+            const auto from = unsigned(mesh.drawn[k].first),
+                       end = unsigned(k + 1 < mesh.drawn.size() ? mesh.drawn[k + 1].first : all.size());
+            osg::BoundingBox box;
+            for (unsigned i = from; i < end; ++i) box.expandBy((*mesh.vertices)[all[i]]);
+            const double most = from < end ? flatness * placed.stretched * double(box.radius()) : 0.0;
+            for (unsigned i = from; i < end; i += 3) {
+                const auto [lowest, top] = std::minmax({of.of[all[i]], of.of[all[i + 1]], of.of[all[i + 2]]});
+                if (!(top <= most && lowest >= -most)) continue;
+                const glm::dvec3 a = vertexAt(mesh, all[i]);
+                const glm::dvec3 across = glm::cross(vertexAt(mesh, all[i + 1]) - a, vertexAt(mesh, all[i + 2]) - a);
+                constexpr double steep = 0.7; // of 45°: what stands up casts
+                has[i / 3] = std::abs(glm::dot(across, normal)) >= steep * glm::length(across) * glm::length(normal);
+                if (has[i / 3]) heights = {std::min(heights.x, lowest), std::max(heights.y, top)};
+            }
+        }
+    }
+
+    std::vector<bool> has;
+    glm::dvec2 heights{0.0}; ///< least and greatest; 0 of what lies there but for rounding.
+};
+
+/// Whether a body has such triangles above the plane.
+bool hasLevelAbove(const PlacedMesh& placed, const glm::dvec4& plane) {
+    const osg::BoundingBoxd& box = placed.mesh->bounds;
+    const glm::dvec3 middle = toGlm(placed.mesh->origin);
+    const auto corners = boxCorners(toGlm(box._min) - middle, toGlm(box._max) - middle, placed.sceneFromMesh);
+    const double most = flatness * placed.stretched * box.radius();
+    return std::any_of(corners.begin(), corners.end(), [&](const auto& at) { return glm::dot(plane, at) <= most; }) &&
+           LevelTriangles(placed, plane, Heights(placed, plane)).heights.y > 0.0;
+}
+
 /// Whether a triangle reaches below the plane or lies in it. @param inMesh  heights in the scene's unit.
 bool mustBeCut(const CasterMesh& mesh, const glm::dvec4& inMesh, double thickness) {
     bool touches = false;
@@ -83,18 +122,21 @@ PlanarParts::PlanarParts(const PlacedMesh& placed, const glm::dvec4& plane, bool
       low(std::numeric_limits<double>::infinity()),
       high(-low) {
     const Heights heights(placed, plane);
+    const LevelTriangles level(placed, plane, heights);
+    if (!under) lying = level.heights;
+    const bool seeks = findSolids && !(level.heights.y > 0.0); // a solid without its upper side is none
     const osg::DrawElementsUInt& all = *mesh->triangles;
-    const ClosedParts closed = findSolids ? closedPartsOf(*mesh, all) : ClosedParts();
+    const ClosedParts closed = seeks ? closedPartsOf(*mesh, all) : ClosedParts();
     osg::ref_ptr<osg::DrawElementsUInt> lists[2][2]; // [crossing][solid]
     for (auto& row : lists)
         for (auto& list : row) list = noTriangles();
     double thickness = 0.0;
     for (unsigned i = 0; i + 2 < all.size(); i += 3) {
         const auto [lowest, top] = std::minmax({heights.of[all[i]], heights.of[all[i + 1]], heights.of[all[i + 2]]});
-        if (!(top > 0.0 || (under && lowest < 0.0))) continue;
-        osg::DrawElementsUInt& list = *lists[lowest < 0.0][findSolids && closed.closed[i / 3]];
+        if (!(top > 0.0 || (under && lowest < 0.0)) || (!under && level.has[i / 3])) continue;
+        osg::DrawElementsUInt& list = *lists[lowest < 0.0][seeks && closed.closed[i / 3]];
         for (unsigned corner = i; corner < i + 3; ++corner) {
-            list.push_back(findSolids ? closed.welded[all[corner]] : all[corner]);
+            list.push_back(seeks ? closed.welded[all[corner]] : all[corner]);
             const glm::dvec3 place(sceneFromMesh * glm::dvec4(vertexAt(*mesh, all[corner]), 1.0));
             low = glm::min(low, place);
             high = glm::max(high, place);
@@ -152,6 +194,7 @@ PlanarCasters::PlanarCasters(const Casters& casters, const glm::dvec4& groupPlan
 
 void PlanarCasters::add(const osg::ref_ptr<const PlanarParts>& more) {
     _meshes.push_back(more);
+    lying = {std::min(lying.x, more->lying.x), std::max(lying.y, more->lying.y)};
     if (more->parts.empty()) return;
     low = glm::min(low, more->low);
     high = glm::max(high, more->high);
@@ -185,7 +228,8 @@ void PlanarCasters::releaseGLObjects(osg::State* state) const {
     for (const PlanarPart& part : parts) part.geometry->releaseGLObjects(state);
 }
 
-/// Joined meshes by their triangles, bodies as wholes. What is under the plane may lie in it: that each triangle tells.
+/// Joined meshes by their triangles, bodies as wholes, but for those that lie in the plane in part. What is under the plane may
+/// lie in it: that each triangle tells.
 osg::ref_ptr<PlanarCasters> PlanarCasterCache::make(const Casters& casters, const glm::dvec4& groupPlane, bool under,
                                                     unsigned frame) {
     const osg::ref_ptr<PlanarCasters> made = new PlanarCasters(casters, groupPlane, under);
@@ -195,16 +239,15 @@ osg::ref_ptr<PlanarCasters> PlanarCasterCache::make(const Casters& casters, cons
     const SceneFrame scene(casters.layers().origin);
     for (const PlacedMesh& placed : casters.layers().meshes()) {
         osg::ref_ptr<const PlanarParts> known;
-        if (placed.isBody && !under) {
+        const bool isBody = placed.isBody && !under;
+        for (const auto& entry : before)
+            if (!known) known = isBody ? entry->at(made->size(), placed) : entry->find(placed);
+        if (isBody && (known ? known->whole.valid() : !hasLevelAbove(placed, made->plane))) {
             const osg::ref_ptr<const PlanarMesh> whole = wholeOf(*placed.mesh, frame);
-            for (const auto& entry : before)
-                if (!known || known->whole != whole) known = entry->at(made->size(), placed);
             if (!known || known->whole != whole) // else it stands still while others move
                 known = new PlanarParts(placed, made->plane, scene.point(placed.bounds._min),
                                         scene.point(placed.bounds._max), *whole);
         } else {
-            for (const auto& entry : before)
-                if (!known) known = entry->find(placed);
             if (!known || (!known->knowsSolids && known->firstFrame != frame))
                 known = new PlanarParts(placed, made->plane, under, known.valid(),
                                         frame); // it stands still: the search pays

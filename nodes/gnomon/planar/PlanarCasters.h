@@ -6,6 +6,7 @@
 
 #include <OpenThreads/Mutex>
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <osg/Geometry>
@@ -16,6 +17,10 @@
 #include <vector>
 
 namespace gnomon {
+
+/// A surface lies in a plane if it is level and no farther from it than this share of its drawable's radius, half the diagonal
+/// of its box: a millimetre of a floor of 16 m. It receives, and so does not cast. One measure for both, and for all units.
+constexpr double flatness = 1e-4;
 
 /// Triangles that are drawn alike, flattened.
 struct PlanarPart {
@@ -60,8 +65,9 @@ struct PlanarParts : public osg::Referenced {
     bool knowsSolids;
     unsigned firstFrame; ///< in which its triangles were looked at.
     std::vector<PlanarPart> parts;
-    glm::dvec3 low, high; ///< bounds of all parts, in the scene.
-    double highest = 0.0; ///< greatest height above the plane.
+    glm::dvec3 low, high;  ///< bounds of all parts, in the scene.
+    double highest = 0.0;  ///< greatest height above the plane.
+    glm::dvec2 lying{0.0}; ///< least and greatest height of what lies in the plane by flatness.
 
 protected:
     ~PlanarParts() override = default;
@@ -95,11 +101,12 @@ public:
     void releaseGLObjects(osg::State* state) const;
 
     std::vector<PlanarPart> parts;
-    osg::Vec3d origin;    ///< of the scene, group frame.
-    glm::dvec4 plane;     ///< in the scene.
-    glm::dvec3 low, high; ///< bounds of all parts, in the scene.
-    bool crosses = false; ///< some part crosses the plane.
-    double highest = 0.0; ///< greatest height above the plane.
+    osg::Vec3d origin;     ///< of the scene, group frame.
+    glm::dvec4 plane;      ///< in the scene.
+    glm::dvec3 low, high;  ///< bounds of all parts, in the scene.
+    bool crosses = false;  ///< some part crosses the plane.
+    double highest = 0.0;  ///< greatest height above the plane.
+    glm::dvec2 lying{0.0}; ///< least and greatest height of what lies in the plane by flatness.
 
 protected:
     ~PlanarCasters() override = default;

@@ -119,9 +119,9 @@ void PlanarMark::cut(ScreenPass& pass) const {
     };
     pass.stencilEqual(0, 0, pass.bit());
     pass.testDepth(GL_LEQUAL);
-    pass.drawQuad(depth.z + moved(farthestOffset + tolerance), depth.x, depth.y);
+    pass.drawQuad(farthest.z + moved(farthestOffset + tolerance), farthest.x, farthest.y);
     pass.testDepth(GL_GREATER);
-    pass.drawQuad(depth.z + moved(nearestOffset - tolerance), depth.x, depth.y);
+    pass.drawQuad(nearest.z + moved(nearestOffset - tolerance), nearest.x, nearest.y);
 }
 
 } // namespace gnomon

@@ -43,6 +43,8 @@ public:
     float dark = 0.5f; ///< factor that each triangle takes of what it covers; without the stencil cure only.
     /// The plane on the screen, normalised device coordinates: z = depth.x·x + depth.y·y + depth.z.
     glm::dvec3 depth{0.0};
+    glm::dvec3 nearest{0.0},
+        farthest{0.0}; ///< the same of the highest and the lowest of what lies in the plane by flatness.
     /// How far polygon offsets move what lies in the plane away from the eye, at least and at most: pixels of the plane's
     /// slope, and steps of the depth buffer.
     glm::dvec2 nearestOffset{0.0}, farthestOffset{0.0};

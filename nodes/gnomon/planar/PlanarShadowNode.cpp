@@ -7,6 +7,7 @@
 #include <gnomon/ViewFrame.h>
 #include <gnomon/base/Fingerprint.h>
 #include <gnomon/casters/Casters.h>
+#include <gnomon/casters/DrawableTriangles.h>
 #include <gnomon/compositor/DrawnLeaves.h>
 #include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/geometry/ScreenBounds.h>
@@ -46,7 +47,7 @@ std::optional<glm::dvec3> depthOnScreen(const glm::dvec4& plane, const glm::dmat
     return depth;
 }
 
-/// True if all of a leaf lies in the plane, as its bounding box tells: exact for a box that is flat in its own frame.
+/// True if all of a leaf lies in the plane by flatness, as its bounding box tells: exact for a box that is flat in its own frame.
 bool liesIn(const osgUtil::RenderLeaf& leaf, const glm::dvec4& eyePlane) {
     const osg::BoundingBox& box = leaf._drawable->getBoundingBox();
     const auto plane = normalizedPlane(glm::transpose(toGlm(modelviewOf(leaf))) * eyePlane);
@@ -55,47 +56,69 @@ bool liesIn(const osgUtil::RenderLeaf& leaf, const glm::dvec4& eyePlane) {
         const glm::dvec3 corner = toGlm(osg::Vec3d(box.corner(i)));
         const double rounding =
             4.0 * std::numeric_limits<float>::epsilon() * (glm::length(corner) + std::abs(plane->w)) / 2.0;
-        if (!(std::abs(distance(*plane, corner)) <= rounding)) return false;
+        if (!(std::abs(distance(*plane, corner)) <= std::max(rounding, flatness * double(box.radius())))) return false;
     }
     return true;
 }
 
-/// The height of a drawable's highest vertex over a plane, both in the drawable's frame.
-struct HighestVertex : osg::Drawable::ConstAttributeFunctor {
-    explicit HighestVertex(const glm::dvec4& over) : plane(over) {}
-    void apply(osg::Drawable::AttributeType type, unsigned count, const osg::Vec3* array) override {
-        take(type, count, array);
+/// Heights of a drawable's surface over a plane, both in the drawable's frame.
+class SurfaceHeights : public TriangleDecoder {
+public:
+    /// @param vertices  at most so many are looked at.
+    SurfaceHeights(const osg::Drawable& drawable, const glm::dvec4& plane, unsigned vertices)
+        : TriangleDecoder({}), _plane(plane), _most(vertices) {
+        readTriangles(drawable, *this);
     }
-    void apply(osg::Drawable::AttributeType type, unsigned count, const osg::Vec3d* array) override {
-        take(type, count, array);
-    }
-    template <typename Vector>
-    void take(osg::Drawable::AttributeType type, unsigned count, const Vector* array) {
-        if (type != osg::Drawable::VERTICES || count > most) return;
-        for (unsigned i = 0; i < count; ++i) height = std::max(height, distance(plane, toGlm(osg::Vec3d(array[i]))));
+    ~SurfaceHeights() override = default;
+
+    double top = -std::numeric_limits<double>::infinity();
+    double farthest = 0.0; ///< of points, lines, and triangles that face the plane's lit side.
+    bool anyTriangle = false;
+
+protected:
+    void start(unsigned count) override { _looks = count <= _most; }
+    void point(unsigned index) override { take(index, true); }
+    void triangle(unsigned a, unsigned b, unsigned c) override {
+        anyTriangle = true;
+        if (!_looks || !isInArray(a) || !isInArray(b) || !isInArray(c)) return;
+        const glm::dvec3 from = toGlm(local(a)), across = glm::cross(toGlm(local(b)) - from, toGlm(local(c)) - from);
+        const bool faces = glm::dot(across, glm::dvec3(_plane)) > 0.5 * glm::length(across); // not the sides of a slab
+        for (const unsigned corner : {a, b, c}) take(corner, faces);
     }
 
-    static constexpr unsigned most = 1000; // vertices that are looked at: floors have few
-    glm::dvec4 plane;
-    double height = -std::numeric_limits<double>::infinity();
+private:
+    void take(unsigned index, bool faces) {
+        if (!_looks || !isInArray(index)) return;
+        const double height = distance(_plane, toGlm(local(index)));
+        top = std::max(top, height);
+        if (faces && std::abs(height) > std::abs(farthest)) farthest = height;
+    }
+
+    const glm::dvec4 _plane; ///< unit normal.
+    const unsigned _most;
+    bool _looks = false;
 };
 
-/// True if a leaf ends in the plane, as its bounding box tells, or the vertices of a simple one: a floor, or the top of a
-/// slab.
+/// What PlanarMark takes for the plane at the far plane: 32 steps of 24 bits of depth, where the near plane is at 0.0005 of the
+/// distance, as OpenSceneGraph computes it. A surface as large as its distance may be off by so much.
+constexpr double unevenness = PlanarMark::tolerance.y / (1 << 24) / 0.0005;
+
+/// How high over a plane a leaf ends, as its bounding box tells, or its vertices: the box of a slanted floor is not flat.
+double topOver(const glm::dvec4& plane, const osgUtil::RenderLeaf& leaf, double ofVertices) {
+    const osg::BoundingBox& box = leaf._drawable->getBoundingBox();
+    double highest = -std::numeric_limits<double>::infinity();
+    for (unsigned i = 0; i < 8; ++i) highest = std::max(highest, distance(plane, toGlm(osg::Vec3d(box.corner(i)))));
+    return std::abs(ofVertices) < std::abs(highest) ? ofVertices : highest;
+}
+
+/// True if a leaf ends in the plane, or close to it: a floor, or the top of a slab.
 bool endsIn(const osgUtil::RenderLeaf& leaf, const glm::dvec4& eyePlane) {
-    // What PlanarMark takes for the plane at the far plane: 32 steps of 24 bits of depth, where the near plane is at
-    // 0.0005 of the distance, as OpenSceneGraph computes it. A surface as large as its distance may be off by so much.
-    constexpr double unevenness = PlanarMark::tolerance.y / (1 << 24) / 0.0005;
+    constexpr unsigned most = 1000; // vertices: floors have few
     const osg::BoundingBox& box = leaf._drawable->getBoundingBox();
     const auto plane = normalizedPlane(glm::transpose(toGlm(modelviewOf(leaf))) * eyePlane);
     if (!box.valid() || !plane) return false;
-    const auto isInPlane = [&](double height) { return std::abs(height) <= unevenness * 2.0 * box.radius(); };
-    double highest = -std::numeric_limits<double>::infinity();
-    for (unsigned i = 0; i < 8; ++i) highest = std::max(highest, distance(*plane, toGlm(osg::Vec3d(box.corner(i)))));
-    if (isInPlane(highest)) return true;
-    HighestVertex vertices(*plane); // the box of a slanted floor is not flat
-    leaf._drawable->accept(vertices);
-    return isInPlane(vertices.height);
+    const double top = topOver(*plane, leaf, SurfaceHeights(*leaf._drawable, *plane, most).top);
+    return std::abs(top) <= unevenness * 2.0 * box.radius();
 }
 
 /// Leaves of one state follow each other.
@@ -233,7 +256,10 @@ osg::ref_ptr<Mark> PlanarShadowNode::prepareOne(const ViewFrame& view, const Sha
     mark->dark = view.group->getDark();
     const auto eyePlane = transformedPlane(toGlm(view.eyeFromGroup), groupPlane);
     const auto bounds = boundsOf(*mark);
-    const auto depth = depthOnScreen(casters.plane, clipFromScene);
+    const auto depthAt = [&](double height) {
+        return depthOnScreen(casters.plane - glm::dvec4(0.0, 0.0, 0.0, height), clipFromScene);
+    };
+    const auto depth = depthAt(0.0);
     if (!bounds || !depth || !eyePlane) return nullptr; // out of sight: nothing to say
     mark->eyePlane = *eyePlane;
     mark->cutToPlane = !_cures.stencil || !receiverLiesIn(view, *eyePlane);
@@ -241,6 +267,8 @@ osg::ref_ptr<Mark> PlanarShadowNode::prepareOne(const ViewFrame& view, const Sha
     if (mark->cutToPlane) followOffsets(*mark, view);
     mark->screenBounds = *bounds;
     mark->depth = *depth;
+    mark->nearest = depthAt(casters.lying.y).value_or(*depth);
+    mark->farthest = depthAt(casters.lying.x).value_or(*depth);
     return mark;
 }
 
@@ -249,6 +277,37 @@ bool PlanarShadowNode::shadowsSurface(const ViewFrame& view, const osgUtil::Rend
         const auto plane = transformedPlane(toGlm(view.eyeFromGroup) * toGlm(view.groupFromTechnique), toGlm(given));
         return plane && endsIn(leaf, *plane);
     });
+}
+
+/// Of a named receiver all that faces the light's side is looked at; else what ends close to the plane.
+std::string PlanarShadowNode::flawOn(const ViewFrame& view, const osgUtil::RenderLeaf& leaf) const {
+    const osg::BoundingBox& box = leaf._drawable->getBoundingBox();
+    std::string flaw;
+    for (const osg::Vec4d& given : _planes) {
+        const auto inEye = transformedPlane(toGlm(view.eyeFromGroup) * toGlm(view.groupFromTechnique), toGlm(given));
+        if (!inEye || !box.valid()) continue;
+        const glm::dvec4 inLeaf = glm::transpose(toGlm(modelviewOf(leaf))) * *inEye;
+        const auto plane = normalizedPlane(inLeaf);
+        if (!plane) continue;
+        const SurfaceHeights heights(*leaf._drawable, *plane, 100000);
+        const double top = topOver(*plane, leaf, heights.top), most = flatness * box.radius();
+        const double farthest = hasReceiver() ? heights.farthest : 0.0;
+        const auto say = [&](double height, const char* what) {
+            std::ostringstream text;
+            text << "'" << nameOf(leaf) << "' is " << std::abs(height) * glm::length(glm::dvec3(inLeaf))
+                 << (height > 0.0 ? " above" : " below") << " the plane (" << given << ")" << what;
+            return text.str();
+        };
+        const bool isClose = std::abs(top) <= unevenness * 2.0 * box.radius();
+        if (isClose && std::abs(top) <= most && std::abs(farthest) <= most) return {};
+        if (isClose && std::abs(top) <= most)
+            flaw = say(farthest, " in places, which get no shadow or a wrong one. Use map, volume or traced for it.");
+        else if (isClose || (hasReceiver() && !heights.anyTriangle))
+            flaw =
+                say(top,
+                    ", too far to be taken for it, so its shadow is missing or wrong. Give the plane that it lies in.");
+    }
+    return flaw;
 }
 
 std::uint64_t PlanarShadowNode::surfacesKey() const {
