@@ -35,6 +35,20 @@ void append(osgUtil::RenderBin& bin, int before, std::vector<DrawnLeaf>& leaves)
     for (; next != bins.end() && next->first < before; ++next) append(*next->second, INT_MAX, leaves);
 }
 
+/// How far apart places in eye space may be that are the same product of doubles, taken in another order.
+double placeMargin(const osg::Matrixd& place) {
+    return 1e-9 * (1.0 + std::abs(place(3, 0)) + std::abs(place(3, 1)) + std::abs(place(3, 2)));
+}
+
+bool isSamePlace(const osg::Matrixd& a, const osg::Matrixd& b) {
+    double difference = 0.0, size = 0.0;
+    for (int i = 0; i < 16; ++i) {
+        difference = std::max(difference, std::abs(a.ptr()[i] - b.ptr()[i]));
+        size = std::max(size, std::abs(a.ptr()[i]));
+    }
+    return difference <= 1e-9 * size;
+}
+
 using Nodes = std::unordered_set<const osg::Node*>;
 
 /// Those without parents at and above a node.
@@ -214,19 +228,6 @@ bool mayBeSeen(const osg::Node& node, const osg::Camera* camera) {
 const osg::Matrixd& matrixOf(const osg::RefMatrix* matrix) {
     static const osg::Matrixd identity;
     return matrix ? *matrix : identity;
-}
-
-double placeMargin(const osg::Matrixd& place) {
-    return 1e-9 * (1.0 + std::abs(place(3, 0)) + std::abs(place(3, 1)) + std::abs(place(3, 2)));
-}
-
-bool isSamePlace(const osg::Matrixd& a, const osg::Matrixd& b, double rounding) {
-    double difference = 0.0, size = 0.0;
-    for (int i = 0; i < 16; ++i) {
-        difference = std::max(difference, std::abs(a.ptr()[i] - b.ptr()[i]));
-        size = std::max(size, std::abs(a.ptr()[i]));
-    }
-    return difference <= 1e-9 * size + rounding;
 }
 
 bool isSameLens(const osg::Matrixd& a, const osg::Matrixd& b) {

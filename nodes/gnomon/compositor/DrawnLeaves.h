@@ -28,11 +28,6 @@ const osg::Matrixd& matrixOf(const osg::RefMatrix* matrix);
 inline const osg::Matrixd& modelviewOf(const osgUtil::RenderLeaf& leaf) { return matrixOf(leaf._modelview.get()); }
 inline const osg::Matrixd& projectionOf(const osgUtil::RenderLeaf& leaf) { return matrixOf(leaf._projection.get()); }
 
-/// How far apart places in eye space may be that are the same product of doubles, taken in another order.
-double placeMargin(const osg::Matrixd& place);
-/// True if two places are one, but for that and for `rounding`.
-bool isSamePlace(const osg::Matrixd& a, const osg::Matrixd& b, double rounding = 0.0);
-
 /// True if two views have the same lens: the same but for near and far, which a nested camera finds for itself.
 bool isSameLens(const osg::Matrixd& a, const osg::Matrixd& b);
 

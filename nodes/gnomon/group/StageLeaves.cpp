@@ -5,6 +5,7 @@
 #include <gnomon/group/StageLeaves.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace gnomon {
@@ -57,29 +58,56 @@ ProgramCauses::ProgramCauses(osgUtil::RenderStage& stage)
     _moved = moved;
 }
 
-const std::vector<ProgramCauses::Standing>& ProgramCauses::standing() const {
-    if (!_standing.empty()) return _standing;
+void ProgramCauses::findStanding(const osg::Matrixd& projection) const {
+    const osgUtil::StateGraph* graph = nullptr; // leaves of one state mostly follow each other
+    const osg::RefMatrix* lens = nullptr;       // and those of one lens
+    bool stands = false, isOfView = false;
     for (const DrawnLeaf& entry : _all) {
-        const ProgramPlaces& places = _places.at(entry.leaf->_parent);
-        const bool stands = !places.movesVertices && !places.setsDepth && !places.discards;
-        if (stands && !entry.leaf->_drawable->getDrawCallback())
-            _standing.emplace_back(entry.leaf->_drawable.get(), modelviewOf(*entry.leaf)(3, 0), entry.leaf);
+        if (entry.leaf->_parent != graph) {
+            const ProgramPlaces& places = _places.at(graph = entry.leaf->_parent);
+            stands = !places.movesVertices && !places.setsDepth && !places.discards;
+        }
+        if (!lens || entry.leaf->_projection != lens) isOfView = isSameLens(projectionOf(*entry.leaf), projection);
+        lens = entry.leaf->_projection.get();
+        if (stands && isOfView && !entry.leaf->_drawable->getDrawCallback()) _standing.push_back(entry.leaf);
     }
-    std::sort(_standing.begin(), _standing.end());
-    return _standing;
 }
 
 bool ProgramCauses::draws(const Caster& caster, const ViewFrame& view) const {
-    const osg::Matrixd place = caster.groupFromLocal * view.eyeFromGroup;
-    const double rounding = 1e-14 * caster.groupFromLocal.getTrans().length(), margin = placeMargin(place) + rounding;
-    const auto& all = standing();
-    const auto from =
-        std::lower_bound(all.begin(), all.end(), Standing{caster.drawable, place(3, 0) - margin, nullptr});
-    for (auto found = from; found != all.end(); ++found) {
-        const auto& [drawable, x, leaf] = *found;
-        if (drawable != caster.drawable || x > place(3, 0) + margin) return false;
-        if (isSamePlace(modelviewOf(*leaf), place, rounding) && isSameLens(projectionOf(*leaf), view.projection))
-            return true;
+    if (_standing.empty() && _next == 0) findStanding(view.projection);
+    if (_standing.empty()) {
+        _next = 1; // they need not be looked for again
+        return false;
+    }
+    // Where the origin goes, and a direction: two places of one drawable differ by these.
+    const auto turned = [](const osg::Matrixd& m) {
+        return osg::Vec3d(m(0, 0) + 2.0 * m(1, 0) + 3.0 * m(2, 0), m(0, 1) + 2.0 * m(1, 1) + 3.0 * m(2, 1),
+                          m(0, 2) + 2.0 * m(1, 2) + 3.0 * m(2, 2));
+    };
+    const auto size = [](const osg::Vec3d& v) { return std::abs(v.x()) + std::abs(v.y()) + std::abs(v.z()); };
+    const osg::Vec3d inGroup = caster.groupFromLocal.getTrans(), place = inGroup * view.eyeFromGroup,
+                     way = osg::Matrixd::transform3x3(turned(caster.groupFromLocal), view.eyeFromGroup);
+    const double margin = 1e-9 * (size(place) + size(way)) + 1e-14 * size(inGroup); // the same product in another order
+    const auto isAt = [&](const osgUtil::RenderLeaf& leaf) {
+        const osg::Matrixd& here = modelviewOf(leaf);
+        return size(here.getTrans() - place) <= margin && size(turned(here) - way) <= margin;
+    };
+    if (_next < _standing.size() && _standing[_next]->_drawable == caster.drawable && isAt(*_standing[_next])) {
+        ++_next;
+        return true;
+    }
+    if (_sorted.empty()) {
+        for (std::size_t i = 0; i < _standing.size(); ++i)
+            _sorted.emplace_back(_standing[i]->_drawable.get(), modelviewOf(*_standing[i])(3, 0), i);
+        std::sort(_sorted.begin(), _sorted.end());
+    }
+    auto found = std::lower_bound(_sorted.begin(), _sorted.end(), Standing{caster.drawable, place.x() - margin, 0});
+    for (; found != _sorted.end(); ++found) {
+        const auto& [drawable, x, index] = *found;
+        if (drawable != caster.drawable || x > place.x() + margin) return false;
+        if (!isAt(*_standing[index])) continue;
+        _next = index + 1;
+        return true;
     }
     return false;
 }
