@@ -69,8 +69,7 @@ struct GNOMON_EXPORT ViewFrame {
     std::size_t lights = 1;                       ///< whose shadows the group wants in the view.
     std::map<int, double> strengths;              ///< of these, see GroupLights.
     std::vector<const osgUtil::RenderLeaf*> seen; ///< leaves that can receive: those, or all of the view.
-    bool movesReceivers =
-        false; ///< A program moves some of `seen` out of their boxes: these may be anywhere in the view.
+    bool movesReceivers = false;          ///< Programs move some of `seen` out of their boxes, anywhere in the view.
     const ProgramCauses* drawn = nullptr; ///< tells which casters the view draws; null if nobody knows.
 
     /// Takes the group's frame to clip space.
