@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "CommandLine.h"
 
-#include <gnomon/SceneProps.h>
-#include <osgDB/FileNameUtils>
 #include <osgDB/Registry>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <dlfcn.h>
 #include <iostream>
 #include <sstream>
 #include <stdexcept>
@@ -91,16 +88,9 @@ CommandWords::CommandWords(const std::vector<std::string>& given)
       _count(static_cast<int>(_words.size())),
       _arguments(&_count, _pointers.data()) {}
 
-void findOwnPlugins() {
-    Dl_info library{};
-    if (!dladdr(reinterpret_cast<const void*>(&askForStencilBits), &library)) return;
-    osgDB::Registry::instance()->getLibraryFilePathList().push_front(osgDB::getFilePath(library.dli_fname));
-}
-
 int runProgram(const char* name, const std::vector<std::string>& given,
                const std::function<int(osg::ArgumentParser& arguments)>& run) {
     try {
-        findOwnPlugins();
         CommandWords words(given);
         if (words.arguments().find("--version") < 0) return run(words.arguments());
         std::cout << name << " " << GNOMON_VERSION << std::endl;

@@ -48,9 +48,6 @@ inline int runProgram(const char* name, int argc, char** argv, int (*run)(osg::A
     return runProgram(name, {argv, argv + argc}, run);
 }
 
-/// Has OpenSceneGraph find Gnomon's plugins beside Gnomon's library, wherever that is installed. runProgram() calls it.
-void findOwnPlugins();
-
 /// Takes the options of `table` out of `arguments`.
 /// @throws std::invalid_argument, one sentence, for a value that cannot be used, is missing, or an option given twice.
 void readOptions(osg::ArgumentParser& arguments, const Options& table);

@@ -43,10 +43,7 @@ function(use_without_parts kind)
     ${configure} -DCOMPONENTS=rays)
   run(${configure} -DCOMPONENTS=)
   run(${CMAKE_COMMAND} --build ${SCRATCH}/program)
-  file(GLOB_RECURSE library ${SCRATCH}/${kind}/*/libgnomon.*)
-  list(GET library 0 library)
-  get_filename_component(library ${library} DIRECTORY)
-  run(${CMAKE_COMMAND} -E env OSG_LIBRARY_PATH=${library} ${SCRATCH}/program/bare)
+  run(${SCRATCH}/program/bare)
 endfunction()
 
 set(configure ${CMAKE_COMMAND} -G ${GENERATOR} -S ${SOURCE} -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_BUILD_TYPE=Debug

@@ -6,6 +6,8 @@ function(run)
   execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
+unset(ENV{OSG_LIBRARY_PATH}) # the library names its plugins' folder itself; OpenSceneGraph looks into these two
+unset(ENV{LD_LIBRARY_PATH})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${installed})
 
 # Programs against what lies there, linked in either order.
@@ -19,8 +21,8 @@ file(GLOB_RECURSE package ${installed}/*/gnomon.pc)
 get_filename_component(package ${package} DIRECTORY)
 get_filename_component(libraries ${package} DIRECTORY)
 set(ENV{PKG_CONFIG_PATH} ${package})
-run(sh -c "eval \"'${CXX}' -std=c++17 '${PLAIN}/main.cpp' $(pkg-config --cflags --libs gnomon) -o '${SCRATCH}/plain'\"")
-run(${CMAKE_COMMAND} -E env LD_LIBRARY_PATH=${libraries} ${SCRATCH}/plain)
+run(sh -c "eval \"'${CXX}' -std=c++17 '${PLAIN}/main.cpp' $(pkg-config --cflags --libs gnomon) '-Wl,-rpath,${libraries}' -o '${SCRATCH}/plain'\"")
+run(${SCRATCH}/plain WORKING_DIRECTORY ${SCRATCH})
 
 # The guide is there with its pictures: what a page has a link to lies beside it.
 file(GLOB_RECURSE pages ${installed}/*.md)
@@ -63,7 +65,6 @@ foreach(program ${programs})
 endforeach()
 
 # They find the plugins beside them, and so the nodes of Gnomon's own scenes.
-set(ENV{OSG_LIBRARY_PATH} "")
 execute_process(COMMAND ${installed}/bin/gnomonshot ${installed}/share/gnomon/halomagic.osgt --size 80x60 --out ${SCRATCH}/halomagic.png
   ERROR_VARIABLE said COMMAND_ERROR_IS_FATAL ANY)
 if(said MATCHES "plugin")

@@ -171,7 +171,6 @@ private:
     explicit ProgramRun(const RunOptions& options) : _options(options) {
         askForStencilBits();
         askForAlphaBits();
-        findOwnPlugins();
         met(metProgram);
         std::atexit([] { // where the program ends by itself
             if (programNeedsOsg()) ofProcess()->met(metOsg);
