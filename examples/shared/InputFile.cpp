@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "InputFile.h"
+#include "OutputFile.h"
 #include "SceneSetup.h"
 
 #include <gnomon/SceneProps.h>
@@ -107,6 +108,28 @@ private:
     osg::ref_ptr<Handler> _handler = new Handler;
 };
 
+/// While it lives, each file that a reader finds counts as read: the scene's own, its materials, its textures.
+class InputNotes {
+public:
+    InputNotes() { registry().setFindFileCallback(new Finder); }
+    ~InputNotes() { registry().setFindFileCallback(_before); }
+    InputNotes(const InputNotes&) = delete;
+    InputNotes& operator=(const InputNotes&) = delete;
+
+private:
+    struct Finder : public osgDB::FindFileCallback {
+        std::string findDataFile(const std::string& name, const osgDB::Options* options,
+                                 osgDB::CaseSensitivity sensitivity) override {
+            const std::string file = osgDB::FindFileCallback::findDataFile(name, options, sensitivity);
+            noteInput(file);
+            return file;
+        }
+    };
+    static osgDB::Registry& registry() { return *osgDB::Registry::instance(); }
+
+    const osg::ref_ptr<osgDB::FindFileCallback> _before = registry().getFindFileCallback();
+};
+
 /// OpenSceneGraph's reader goes on at the end of a file that is cut off, with whatever number of things it last read: for
 /// hours, or until memory ends. So the end is an exception.
 ReadResult readBinary(osgDB::Registry& registry, const std::string& file, const FileKind& kind) {
@@ -163,6 +186,7 @@ ReadResult readFile(const std::string& file, const std::string& program, const F
         !std::filesystem::is_regular_file(file, ignored)) // a pipe is waited for
         throw std::runtime_error(quoted(file) + " is a device or a pipe. Give " + kind.article + " file.");
     const Listener listener;
+    const InputNotes notes;
     ReadResult result = guarded(file, program + ": " + damagedSentence(file, kind), kind);
     const std::string unknown = listener.unknownClasses();
     if (result.validObject() && !unknown.empty())

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <unistd.h>
@@ -24,8 +25,15 @@ fs::path draftOf(const fs::path& path) {
     return path.parent_path() / name;
 }
 
+/// Of this process, without links in their paths.
+std::set<fs::path>& inputs() {
+    static std::set<fs::path> files;
+    return files;
+}
+
 void requirePlace(const fs::path& path) {
     std::error_code ignored;
+    if (inputs().count(fs::canonical(path, ignored))) refuse(path, "the program reads it. Give another name");
     const fs::path folder = path.parent_path().empty() ? fs::path(".") : path.parent_path();
     if (!path.has_filename() || fs::is_directory(path, ignored)) refuse(path, "it is a directory. Give a file's name");
     if (!fs::is_directory(folder, ignored)) refuse(path, "there is no directory \"" + folder.string() + "\"");
@@ -42,18 +50,24 @@ osg::ref_ptr<osg::Image> opaque(const osg::Image& image) {
     return result;
 }
 
-/// "png" of "a.png".
+/// True if OSG reads or writes nodes by this ending.
+bool isScenes(const std::string& ending) {
+    using Plugin = osgDB::ReaderWriter;
+    const Plugin* plugin = ending.empty() ? nullptr : osgDB::Registry::instance()->getReaderWriterForExtension(ending);
+    return plugin && plugin->supportedFeatures() & (Plugin::FEATURE_READ_NODE | Plugin::FEATURE_WRITE_NODE);
+}
+
+/// "png" of "a.png" and "A.PNG".
 std::string endingOf(const fs::path& path) {
     const std::string ending = path.extension().string();
-    return ending.empty() ? ending : ending.substr(1);
+    return ending.empty() ? ending : osgDB::convertToLowerCase(ending.substr(1));
 }
 
 } // namespace
 
 std::string imageBytes(const osg::Image& image, const std::string& ending) {
     osgDB::Registry* registry = osgDB::Registry::instance();
-    osgDB::ReaderWriter* writer =
-        ending.empty() ? nullptr : registry->getReaderWriterForExtension(osgDB::convertToLowerCase(ending));
+    osgDB::ReaderWriter* writer = ending.empty() ? nullptr : registry->getReaderWriterForExtension(ending);
     std::ostringstream bytes;
     const bool written = writer && writer->writeImage(image, bytes, registry->getOptions()).success();
     return written ? bytes.str() : "";
@@ -64,6 +78,12 @@ void requireFolder(const fs::path& folder) {
     fs::create_directories(folder, error);
     if (!fs::is_directory(folder))
         throw std::runtime_error("\"" + folder.string() + "\" cannot be created as a folder: " + error.message() + ".");
+}
+
+void noteInput(const std::string& file) {
+    std::error_code none;
+    const fs::path path = fs::canonical(file, none);
+    if (!none) inputs().insert(path);
 }
 
 OutputFile::OutputFile(const std::string& path) : _path(path), _draft(draftOf(path)) {
@@ -80,11 +100,13 @@ void OutputFile::removeDraft() const {
 }
 
 void OutputFile::requireImage() const {
+    constexpr const char* allowed = "Allowed: png, jpg, bmp, tif, rgb";
     osg::ref_ptr<osg::Image> dot = new osg::Image;
     dot->allocateImage(1, 1, 1, GL_RGB, GL_UNSIGNED_BYTE);
     std::fill(dot->data(), dot->data() + dot->getTotalSizeInBytes(), static_cast<unsigned char>(0));
-    if (imageBytes(*dot, endingOf(_path)).empty())
-        refuse(_path, "OpenSceneGraph writes no such images. Allowed: png, jpg, bmp, tif, rgb");
+    const bool isImages = !imageBytes(*dot, endingOf(_path)).empty();
+    if (isImages && isScenes(endingOf(_path))) refuse(_path, std::string("its ending is a scene's. ") + allowed);
+    if (!isImages) refuse(_path, std::string("OpenSceneGraph writes no such images. ") + allowed);
 }
 
 void OutputFile::requireData() const {
@@ -98,6 +120,7 @@ void OutputFile::writeData(const osg::Image& image) { write(imageBytes(image, en
 void OutputFile::write(const osg::Image& image) { write(imageBytes(*opaque(image), endingOf(_path))); }
 
 void OutputFile::write(const std::string& text) {
+    requirePlace(_path);
     std::ofstream out(_draft, std::ios::binary);
     out << text << std::flush;
     if (!out) refuse(_path, "only a part was written. Check that the disk is not full");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "SceneWindow.h"
 #include "Hud.h"
+#include "OutputFile.h"
 
 #include <gnomon/SceneProps.h>
 #include <gnomon/ShadowStats.h>
@@ -17,6 +18,8 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <iostream>
 #include <stdexcept>
 
 namespace gnomon::examples {
@@ -76,10 +79,25 @@ bool namesDisplay() {
     return name && std::strchr(name, ':');
 }
 
-osgViewer::ScreenCaptureHandler* makeCapture(const std::string& program) {
-    using Capture = osgViewer::ScreenCaptureHandler;
-    return new Capture(new Capture::WriteToFile(program, "png", Capture::WriteToFile::SEQUENTIAL_NUMBER));
-}
+/// Writes pictures as PROGRAM_0_0.png and so on, by the first number that is no file yet: none is written over.
+class NumberedPictures : public osgViewer::ScreenCaptureHandler::CaptureOperation {
+public:
+    explicit NumberedPictures(const std::string& program) : _program(program) {}
+
+    void operator()(const osg::Image& picture, const unsigned int context) override {
+        const std::string start = _program + "_" + std::to_string(context) + "_";
+        int number = 0;
+        while (std::filesystem::exists(start + std::to_string(number) + ".png")) ++number;
+        try {
+            OutputFile(start + std::to_string(number) + ".png").write(picture);
+        } catch (const std::exception& error) {
+            std::cerr << _program << ": note: " << error.what() << std::endl;
+        }
+    }
+
+private:
+    const std::string _program;
+};
 
 } // namespace
 
@@ -119,7 +137,7 @@ void SceneWindow::addHandlers(const WindowNames& names, Hud& hud, osgGA::GUIEven
     _viewer.addEventHandler(&keys);
     _viewer.addEventHandler(new osgGA::StateSetManipulator(_viewer.getCamera()->getOrCreateStateSet()));
     _viewer.addEventHandler(new osgViewer::WindowSizeHandler);
-    _viewer.addEventHandler(makeCapture(names.program));
+    _viewer.addEventHandler(new osgViewer::ScreenCaptureHandler(new NumberedPictures(names.program)));
     addOverlays(names, hud);
 }
 

@@ -455,4 +455,42 @@ TEST_F(BadInput, LeavesAFileThatIsThereAsItIs) {
     EXPECT_EQ(readFile(folder.path() / "o.png"), "precious");
 }
 
+/// A picture under a scene's ending would take a scene's place sooner or later.
+TEST_F(BadInput, NoProgramWritesAPictureUnderAScenesEnding) {
+    for (const char* name : {"o.osgt", "o.osgb", "o.osgx", "o.ive", "o.OSGT"}) {
+        const std::string says = std::string("\"") + name +
+                                 "\" cannot be written: its ending is a scene's. Allowed: png, jpg, bmp, tif, rgb.";
+        EXPECT_EQ(refusal(GNOMONSHOT, {scene, "--out", name}, folder, false), says);
+        for (const char* program : {LAB8, ARL_TERRAIN})
+            EXPECT_EQ(refusal(program, {"--out", name}, folder, false), says) << program;
+        EXPECT_EQ(refusal(GNOMONRUN, {"--frames", "1", "--out", name, "--", "true"}, folder, false), says);
+        const Arguments compared = {"--casting", "a", "--not-casting", "b", "--truth", "c", "--overlay", name};
+        EXPECT_EQ(refusal(GNOMONCOMPARE, compared, folder, false), says);
+    }
+}
+
+/// A scene that reads a material file, which reads a texture.
+TEST_F(BadInput, NoProgramWritesOverAFileThatItReads) {
+    folder.write("quad.obj", "mtllib quad.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 1 0 1\nvt 0 0\nvt 1 0\nvt 1 1\n"
+                             "f 1/1 3/3 2/2\n");
+    folder.write("quad.mtl", "newmtl m\nKd 1 1 1\nmap_Kd quad.png\n");
+    osg::ref_ptr<osg::Image> dot = new osg::Image;
+    dot->allocateImage(1, 1, 1, GL_RGB, GL_UNSIGNED_BYTE);
+    osgDB::writeImageFile(*dot, (folder.path() / "quad.png").string());
+    const std::string texture = readFile(folder.path() / "quad.png"), model = readFile(folder.path() / "quad.obj");
+    const auto says = [](const std::string& file) {
+        return "\"" + file + "\" cannot be written: the program reads it. Give another name.";
+    };
+    const std::string elsewhere = "../" + folder.path().filename().string() + "/quad.png";
+    for (const std::string& out : {std::string("quad.png"), elsewhere})
+        EXPECT_EQ(refusal(GNOMONSHOT, {"quad.obj", "--size", "8x8", "--out", out}, folder, false), says(out));
+    for (const char* out : {"quad.obj", "quad.mtl"})
+        EXPECT_EQ(refusal(GNOMONSHOT, {"quad.obj", "--size", "8x8", "--stats", out, "--frames", "1"}, folder, false),
+                  says(out));
+    EXPECT_EQ(refusal(GNOMONRUN, {"--frames", "1", "--out", "quad.png", "--", "true", "quad.png"}, folder),
+              says("quad.png"));
+    EXPECT_EQ(readFile(folder.path() / "quad.png"), texture);
+    EXPECT_EQ(readFile(folder.path() / "quad.obj"), model);
+}
+
 } // namespace

@@ -280,10 +280,11 @@ TEST_F(Viewer, WShowsTheWireFrameThroughWhichTheBackgroundIsSeen) {
 }
 
 TEST_F(Viewer, CWritesTheWindowsPicture) {
+    folder.write("gnomonviewer_0_0.png", "precious");
     openUnderLamp();
     desktop->press("c");
     osg::ref_ptr<osg::Image> file;
-    const std::string path = folder.path() / "gnomonviewer_0_0.png";
+    const std::string path = folder.path() / "gnomonviewer_0_1.png";
     desktop->pictureWhere("the file is whole", [&](const Screenshot&) {
         return std::filesystem::exists(path) && (file = osgDB::readRefImageFile(path)) && file->data();
     });
@@ -296,6 +297,7 @@ TEST_F(Viewer, CWritesTheWindowsPicture) {
             different += first.at(x, y) != (unsigned(p[0]) << 16 | unsigned(p[1]) << 8 | p[2]);
         }
     EXPECT_EQ(different, 0);
+    EXPECT_EQ(readFile(folder.path() / "gnomonviewer_0_0.png"), "precious") << "what is there stays";
 }
 
 TEST_F(Viewer, FFillsTheScreenAndGivesItBack) {

@@ -133,6 +133,7 @@ int start(osg::ArgumentParser& arguments, const Words& options, const Words& com
     }
     if (command.empty())
         throw std::invalid_argument("no program is given. Write gnomonrun OPTION... -- PROGRAM ARGUMENT...");
+    for (const std::string& word : command) noteInput(word); // those of them that are files
     if (!read.out.empty()) OutputFile(read.out).requireImage();
     if (std::filesystem::exists(read.compare) && !std::filesystem::is_directory(read.compare))
         throw std::invalid_argument("--compare " + read.compare + " is not a folder. Give a folder's name.");
