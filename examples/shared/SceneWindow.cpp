@@ -99,6 +99,15 @@ private:
     const std::string _program;
 };
 
+/// Has Mesa apply what is set: it puts that off, and where text was drawn last, the material of the last frame's end comes to stand
+/// in the place of the next frame's first one. A model without colours then has another ambient colour. Costs a query a frame.
+struct ApplyColours : public osg::Camera::DrawCallback {
+    void operator()(osg::RenderInfo&) const override {
+        float color[4];
+        glGetFloatv(GL_CURRENT_COLOR, color);
+    }
+};
+
 } // namespace
 
 SceneWindow::SceneWindow(const WindowNames& names, const ViewOptions& options, SceneSetup& setup, Hud& hud,
@@ -112,6 +121,7 @@ SceneWindow::SceneWindow(const WindowNames& names, const ViewOptions& options, S
     openWindow(names, options);
     placeCamera(*_viewer.getCamera(), options, setup);
     setup.root->addChild(hud.camera());
+    _viewer.getCamera()->setInitialDrawCallback(new ApplyColours);
     addHandlers(names, hud, keys);
     _viewer.setSceneData(setup.root);
     placeHands(options, setup);
