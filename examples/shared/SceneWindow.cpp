@@ -121,7 +121,7 @@ SceneWindow::SceneWindow(const WindowNames& names, const ViewOptions& options, S
     openWindow(names, options);
     placeCamera(*_viewer.getCamera(), options, setup);
     setup.root->addChild(hud.camera());
-    _viewer.getCamera()->setInitialDrawCallback(new ApplyColours);
+    _viewer.getCamera()->setPreDrawCallback(new ApplyColours);
     addHandlers(names, hud, keys);
     _viewer.setSceneData(setup.root);
     placeHands(options, setup);
