@@ -2,6 +2,7 @@
 // Costs, flicker, sweeps and the white copy: what gnomonchart measures beside still pictures.
 #include "SmallScene.h"
 
+#include "ChartScene.h"
 #include "Contender.h"
 #include "FlickerRun.h"
 #include "ImageFile.h"
@@ -16,7 +17,10 @@
 #include <osg/Fog>
 #include <osg/Geometry>
 #include <osg/Material>
+#include <osg/MatrixTransform>
 #include <osg/Texture2D>
+#include <osgUtil/TransformCallback>
+#include <support/Mesh.h>
 
 #include <cmath>
 #include <ctime>
@@ -305,6 +309,39 @@ void expectTheLeftHalfWhite(const ChartScene& scene) {
     for (int channel = 0; channel < 3; ++channel) {
         EXPECT_NEAR(at(-2.0, 0.0)[channel], cosine, 1e-5);
         EXPECT_EQ(at(2.0, 0.0)[channel], 0.0f);
+    }
+}
+
+/// Moves on a step each frame, whatever the clock says.
+struct Walk : osg::NodeCallback {
+    void operator()(osg::Node* node, osg::NodeVisitor* visitor) override {
+        static_cast<osg::MatrixTransform&>(*node).postMult(osg::Matrixd::translate(0.5, 0.0, 0.0));
+        traverse(node, visitor);
+    }
+};
+
+/// OpenSceneGraph's rotor, as a windmill has it, turns by a second's worth in its first frame; the other thing never stops.
+TEST(ChartScene, WhatAnimatesStandsStillWhileItIsMeasured) {
+    const auto moved = [](osg::NodeCallback* callback, const glm::dvec2& place) {
+        const osg::ref_ptr<osg::MatrixTransform> mount = new osg::MatrixTransform;
+        mount->addChild(test::node(test::house(place, {3.0, 0.8, 3.0}, 0.0)));
+        mount->setUpdateCallback(callback);
+        return mount;
+    };
+    osg::ref_ptr<osg::Group> files = new osg::Group;
+    files->addChild(test::node(test::square(5.0), "ground"));
+    files->addChild(moved(new osgUtil::TransformCallback({0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 1.0f}, 0.9f), {0.0, 0.0}));
+    files->addChild(moved(new Walk, {-3.0, 2.0}));
+    ViewOptions options;
+    options.width = 240;
+    options.height = 180;
+    const ChartScene scene = chartSceneOf(*files, options);
+    const Yardstick yardstick(scene, false);
+    Sight sight(gnomonContender("traced", Receives::EVERYTHING), scene);
+    for (int frame = 0; frame < 3; ++frame) {
+        const auto errors = gnomon::metrics::shadowMetrics(sight.visibility(), yardstick.maps(), yardstick.limits());
+        EXPECT_GT(errors.headline.shadow, 100u);
+        EXPECT_EQ(errors.headline.falseShadow + errors.headline.falseLit, 0u) << "pair of frames " << frame;
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include <osg/LightSource>
 #include <osg/NodeVisitor>
+#include <osgUtil/UpdateVisitor>
 
 namespace gnomon::examples {
 namespace {
@@ -24,6 +25,36 @@ public:
         traverse(source);
     }
 };
+
+/// Leaves nothing that moves nodes or changes state from one frame to the next.
+class CallbacksOut : public osg::NodeVisitor {
+public:
+    CallbacksOut() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
+    void apply(osg::Node& node) override {
+        node.setUpdateCallback(nullptr);
+        node.setEventCallback(nullptr);
+        if (osg::StateSet* state = node.getStateSet()) {
+            state->setUpdateCallback(nullptr);
+            state->setEventCallback(nullptr);
+        }
+        traverse(node);
+    }
+};
+
+/// Gives what animates its pose of the clock's zero, and keeps it there: rays and all contenders are to see one scene. The first
+/// frame may start a motion that the second one sets.
+void standStill(osg::Node& files) {
+    const osg::ref_ptr<osg::FrameStamp> start = new osg::FrameStamp;
+    osgUtil::UpdateVisitor update;
+    update.setFrameStamp(start);
+    for (const unsigned frame : {1, 2}) {
+        start->setFrameNumber(frame);
+        update.setTraversalNumber(frame);
+        files.accept(update);
+    }
+    CallbacksOut callbacksOut;
+    files.accept(callbacksOut);
+}
 
 osg::ref_ptr<osg::Group> contentOf(const SceneSetup& setup) {
     osg::ref_ptr<osg::Group> content = new osg::Group;
@@ -52,6 +83,7 @@ osg::Vec4d movedLight(const ChartScene& scene, double step) {
 ChartScene chartSceneOf(osg::Node& files, const ViewOptions& options) {
     ViewOptions plain = options;
     plain.shadows.clear();
+    standStill(files);
     SceneSetup setup = setUpScene(plain, files);
     setup.framed.clear(); // charts stay comparable: all of the scene is in their pictures
     ChartScene scene;

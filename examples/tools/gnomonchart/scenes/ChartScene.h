@@ -32,7 +32,8 @@ SceneCamera movedCamera(const ChartScene& scene, double step);
 osg::Vec4d movedLight(const ChartScene& scene, double step);
 
 /// Files of the user's own, set up as gnomonshot does: ground, light and camera as the options ask or by default. Lights
-/// of the files' own shine no more; the first of them is taken where the options give none.
+/// of the files' own shine no more; the first of them is taken where the options give none. What animates takes the pose of the
+/// clock's zero and stands still from now on.
 /// @throws std::invalid_argument, one sentence, see setUpScene() and placeCamera().
 ChartScene chartSceneOf(osg::Node& files, const ViewOptions& options);
 
