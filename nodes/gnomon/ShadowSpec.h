@@ -54,6 +54,8 @@ GNOMON_EXPORT std::string shadowSpecHelp(const std::vector<std::string>& names =
 /// - box, hull: take the receiver as terrain.
 /// - map, volume, traced, auto: take everything as receiver, unless one is named.
 ///
+/// A ShadowedScene has a technique from the start: the first of `specs` takes its place, and "none" takes it away.
+///
 /// @return the techniques in the order of `specs`. "none" adds none.
 /// @throws std::invalid_argument with one sentence if composites differ, or a receiver is missing or has no flat part.
 GNOMON_EXPORT std::vector<osg::ref_ptr<ShadowTechnique>> addShadows(ShadowCasterGroup& group,

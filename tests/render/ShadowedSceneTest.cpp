@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A program written for osgShadow::ShadowedScene, compiled as it is and with the type of Gnomon in its place.
 #include <gnomon/PlanarShadowNode.h>
+#include <gnomon/ShadowSpec.h>
 #include <gnomon/ShadowedScene.h>
 #include <gtest/gtest.h>
 #include <support/Oracle.h>
@@ -149,4 +150,30 @@ TEST(ShadowedScene, ACopyDrawsTheSame) {
         ASSERT_TRUE(copy);
         EXPECT_EQ(drawn(copy).different(expected), 0);
     }
+}
+
+int techniquesOf(const osg::Group& group) {
+    int count = 0;
+    for (unsigned i = 0; i < group.getNumChildren(); ++i)
+        count += dynamic_cast<const gnomon::ShadowTechnique*>(group.getChild(i)) != nullptr;
+    return count;
+}
+
+/// The scene has a technique from the start, which is not to cast beside those that are asked for.
+TEST(ShadowedScene, AddShadowsTakesThePlaceOfTheTechniqueThatItHas) {
+    const osg::ref_ptr<gnomon::ShadowedScene> shadowed = program<gnomon::ShadowedScene>();
+    for (const char* spec : {"volume", "map:size=512"}) {
+        const auto made = gnomon::addShadows(*shadowed, {gnomon::parseShadowSpec(spec)});
+        EXPECT_EQ(techniquesOf(*shadowed), 1) << spec;
+        EXPECT_EQ(shadowed->getShadow(), made.front()) << spec;
+        EXPECT_EQ(made.front()->getReceiver().mask, receivesMask) << spec;
+        EXPECT_EQ(wrongGround(drawn(shadowed), rays()), 0) << spec;
+    }
+    const auto both = gnomon::addShadows(
+        *shadowed, {gnomon::parseShadowSpec("traced:receiver=ground"), gnomon::parseShadowSpec("volume")});
+    EXPECT_EQ(techniquesOf(*shadowed), 2);
+    EXPECT_EQ(both.front()->getReceiver().node->getName(), "ground");
+    shadowed->removeChild(both.back());
+    gnomon::addShadows(*shadowed, {gnomon::parseShadowSpec("none")});
+    EXPECT_EQ(techniquesOf(*shadowed), 0);
 }

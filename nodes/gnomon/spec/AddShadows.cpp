@@ -5,6 +5,7 @@
 #include <gnomon/PlanarShadowNode.h>
 #include <gnomon/ShadowSpec.h>
 #include <gnomon/ShadowVolumeTechnique.h>
+#include <gnomon/ShadowedScene.h>
 #include <gnomon/TerrainShadowGeode.h>
 #include <gnomon/TracedShadowTechnique.h>
 #include <gnomon/spec/SpecTable.h>
@@ -139,6 +140,19 @@ osg::ref_ptr<ShadowTechnique> makeTechnique(ShadowCasterGroup& group, const Shad
     return node;
 }
 
+/// The technique that the scene has gives way to the first; what none of them names receives by the scene's mask, as it did.
+void replaceShadow(ShadowedScene& scene, const Techniques& made) {
+    for (const osg::ref_ptr<ShadowTechnique>& node : made)
+        if (!node->getReceiver().node) node->setReceiver({nullptr, scene.getReceivesShadowTraversalMask()});
+    if (made.empty()) {
+        scene.removeChild(scene.getShadow());
+        return;
+    }
+    const Selection receiver = made.front()->getReceiver();
+    scene.setShadow(made.front());
+    made.front()->setReceiver(receiver);
+}
+
 } // namespace
 
 std::vector<osg::ref_ptr<ShadowTechnique>> addShadows(ShadowCasterGroup& group, const std::vector<ShadowSpec>& specs) {
@@ -146,7 +160,9 @@ std::vector<osg::ref_ptr<ShadowTechnique>> addShadows(ShadowCasterGroup& group, 
     for (const ShadowSpec& spec : specs)
         if (osg::ref_ptr<ShadowTechnique> node = makeTechnique(group, spec)) made.push_back(node);
     setComposite(group, specs);
-    for (const osg::ref_ptr<ShadowTechnique>& node : made) group.addChild(node);
+    if (auto* scene = dynamic_cast<ShadowedScene*>(&group)) replaceShadow(*scene, made);
+    for (const osg::ref_ptr<ShadowTechnique>& node : made)
+        if (!group.containsNode(node)) group.addChild(node);
     return made;
 }
 
