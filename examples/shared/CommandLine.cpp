@@ -4,6 +4,7 @@
 #include <osgDB/Registry>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <iostream>
@@ -53,8 +54,13 @@ void takeValue(const Option& option, const std::string& value) {
         option.take(value);
     } catch (const std::invalid_argument& error) {
         const std::string why = error.what();
-        const bool isSaid = why.find(" cannot be used. ") != std::string::npos; // of a part of the value
-        refuse(option.name + " " + value + (isSaid ? ": " : " cannot be used. ") + why);
+        const bool isSaid = why.find(" cannot be used. ") != std::string::npos;      // of a part of the value
+        const bool isClause = std::islower(static_cast<unsigned char>(why.front())); // "the technique map has no key …"
+        refuse(option.name + " " + value +
+               (isSaid     ? ": "
+                : isClause ? " cannot be used: "
+                           : " cannot be used. ") +
+               why);
     }
 }
 

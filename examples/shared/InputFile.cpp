@@ -156,14 +156,10 @@ ReadResult guarded(const std::string& file, const std::string& sentence, const F
     }
 }
 
-/// Also where endings only choose a reader, as .gdal does, or move what is read, as .30,0,0.rot does.
-bool isThere(const std::string& file) {
-    const std::string shorter = osgDB::getNameLessExtension(file);
-    return !osgDB::findDataFile(file).empty() || (shorter != file && isThere(shorter));
-}
+constexpr const char* damaged = "it is damaged, or it does not match its name";
 
 /// That the file cannot be read as what it is to hold, and how an elevation model is read.
-std::string damagedSentence(const std::string& file, const FileKind& kind) {
+std::string unreadSentence(const std::string& file, const FileKind& kind, const std::string& cause = damaged) {
     const std::string start = quoted(file) + " cannot be read as " + kind.article + ": ";
     const std::string ending = osgDB::getLowerCaseFileExtension(file);
     const std::string byGdal = ending == "gdal" ? file : file + ".gdal";
@@ -172,7 +168,22 @@ std::string damagedSentence(const std::string& file, const FileKind& kind) {
     for (const char* each : {"asc", "dem", "gdal", "hgt", "vrt"})
         if (&kind == &scene && ending == each)
             return start + "by its name it is an elevation model. Use arl_terrain " + quoted(byGdal) + ".";
-    return start + "it is damaged, or it does not match its name. Allowed: " + kind.formats + ".";
+    return start + cause + ". Allowed: " + kind.formats + ".";
+}
+
+/// The name as far as it is a file's: endings may only choose a reader, as .gdal does, or move what is read, as .30,0,0.rot does.
+/// Empty: there is no such file.
+std::string fileIn(const std::string& name) {
+    const std::string shorter = osgDB::getNameLessExtension(name);
+    if (!osgDB::findDataFile(name).empty()) return name;
+    return shorter != name ? fileIn(shorter) : "";
+}
+
+/// Why a file that is there cannot be read.
+std::string causeOf(const std::string& name) {
+    const std::string ending = osgDB::getLowerCaseFileExtension(fileIn(name));
+    const bool hasPlugin = ending.empty() || osgDB::Registry::instance()->getReaderWriterForExtension(ending);
+    return hasPlugin ? damaged : "no plugin of OpenSceneGraph here reads files that end in ." + ending;
 }
 
 /// Reads an object, of whatever class, -O options included. A reader that crashes on a damaged file ends the program with the
@@ -187,23 +198,23 @@ ReadResult readFile(const std::string& file, const std::string& program, const F
         throw std::runtime_error(quoted(file) + " is a device or a pipe. Give " + kind.article + " file.");
     const Listener listener;
     const InputNotes notes;
-    ReadResult result = guarded(file, program + ": " + damagedSentence(file, kind), kind);
+    ReadResult result = guarded(file, program + ": " + unreadSentence(file, kind), kind);
     const std::string unknown = listener.unknownClasses();
     if (result.validObject() && !unknown.empty())
         std::cerr << program << ": note: " << quoted(file) << " is shown in part: no plugin here reads its " << unknown
                   << "." << std::endl;
     if (result.validObject()) return result;
-    if (!isThere(file)) throw std::runtime_error("there is no file " + quoted(file) + ".");
+    if (fileIn(file).empty()) throw std::runtime_error("there is no file " + quoted(file) + ".");
     if (!unknown.empty())
         throw std::runtime_error("no plugin here reads " + unknown + " in " + quoted(file) +
                                  ". Name the folder of its plugin's folder in OSG_LIBRARY_PATH.");
-    throw std::runtime_error(damagedSentence(file, kind));
+    throw std::runtime_error(unreadSentence(file, kind, causeOf(file)));
 }
 
 osg::ref_ptr<osg::Node> readOne(const std::string& file, const std::string& program) {
     ReadResult result = readFile(file, program, scene);
     const osg::ref_ptr<osg::Node> node = result.getNode();
-    if (!node) throw std::runtime_error(damagedSentence(file, scene));
+    if (!node) throw std::runtime_error(unreadSentence(file, scene));
     if (!sceneBounds(*node).valid())
         throw std::runtime_error(quoted(file) +
                                  " holds nothing to draw. It is empty or damaged, or it does not match its name.");
@@ -229,7 +240,7 @@ osg::ref_ptr<osg::HeightField> readElevation(const std::string& file, const std:
     ReadResult result = readFile(file, program, elevation);
     osg::ref_ptr<osg::HeightField> field = result.getHeightField();
     if (!field || field->getNumColumns() < 2 || field->getNumRows() < 2)
-        throw std::runtime_error(damagedSentence(file, elevation));
+        throw std::runtime_error(unreadSentence(file, elevation));
     if (isLevelAtZero(*field))
         throw std::runtime_error(quoted(file) +
                                  " has the height 0 everywhere. The data that it refers to may be missing or damaged.");
@@ -240,7 +251,7 @@ osg::ref_ptr<osg::Image> readImage(const std::string& file, const std::string& p
     ReadResult result = readFile(file, program, picture);
     osg::ref_ptr<osg::Image> image = result.getImage();
     if (!image || image->s() < 1 || image->t() < 1 || !image->data())
-        throw std::runtime_error(damagedSentence(file, picture));
+        throw std::runtime_error(unreadSentence(file, picture));
     return image;
 }
 

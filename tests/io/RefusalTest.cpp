@@ -9,6 +9,7 @@
 #include <osgDB/ReadFile>
 #include <osgDB/WriteFile>
 
+#include <cctype>
 #include <set>
 #include <sstream>
 #include <sys/stat.h>
@@ -247,6 +248,12 @@ TEST_F(BadInput, FilesThatAreMissingOrOfAnotherType) {
     EXPECT_EQ(refusalOf("gone.osgt.30,0,0.rot"), "there is no file \"gone.osgt.30,0,0.rot\".");
     for (const char* name : {"noise.png", "letter.obj", "letter.osgt"}) EXPECT_EQ(refusalOf(name), damaged(name));
     refusalOf("readme.txt");
+    folder.write("fox.gltf", "{}\n");
+    for (const std::string name : {"fox.gltf", "fox.gltf.30,0,0.rot"})
+        EXPECT_EQ(refusalOf(name),
+                  "\"" + name +
+                      "\" cannot be read as a scene: no plugin of OpenSceneGraph here reads files that "
+                      "end in .gltf. Allowed: obj, osgt, ive, stl, 3ds, ….");
 }
 
 TEST_F(BadInput, FilesWithNothingInThem) {
@@ -361,7 +368,8 @@ TEST_F(BadInput, ValuesThatCannotBeUsed) {
     };
     for (const auto& [option, values, allowed] : rows)
         for (const std::string& value : values) {
-            const std::string expected = std::string(option) + " " + value + " cannot be used. " + allowed;
+            const char* joint = std::islower(static_cast<unsigned char>(allowed[0])) ? ": " : ". ";
+            const std::string expected = std::string(option) + " " + value + " cannot be used" + joint + allowed;
             for (const Arguments& given : {Arguments{option, value}, Arguments{option + ("=" + value)}}) {
                 Arguments all = {scene, "--out", "o.png"};
                 all.insert(all.end(), given.begin(), given.end());
@@ -396,6 +404,9 @@ TEST_F(BadInput, OptionsThatDoNotFit) {
         {{"--size", "8x8", "--size", "9x9"}, "--size is given twice. Give it once."},
         {{"--size=8x8", "--size", "9x9"}, "--size is given twice. Give it once."},
         {{"--size="}, "--size  cannot be used. Allowed: WIDTHxHEIGHT from 1x1 to 16384x16384 pixels."},
+        {{"--shadow", "map:side=3"},
+         "--shadow map:side=3 cannot be used: the technique map has no key \"side\". Allowed: size, filter, cascades, "
+         "edges, sun-angle, lamp-size, radius, view, composite, dark, receiver."},
         {{"--siz=8x8"}, "there is no option --siz. See --help for all options."},
         {{"--"}, "there is no option --. See --help for all options."},
         {{""}, "there is no file \"\"."},
