@@ -80,6 +80,7 @@ Lookout lookout(const ViewOptions& options, const SceneSetup& setup);
 struct SceneCamera {
     osg::Matrixd view, projection;
     int width = 0, height = 0; ///< pixels.
+    double fraction = 0.0;     ///< of a pixel, that its viewport has too many on each side; OpenGL leaves it out.
 };
 
 /// What a camera sees. Where it leaves near and far to OpenSceneGraph, they stand close around `bounds`, near never closer

@@ -68,6 +68,24 @@ TEST(RandomScenes, AreOfEveryKind) {
     for (const unsigned count : {lamps, broken, nested, far, vast, stray}) EXPECT_GT(count, 40u);
 }
 
+/// Backdrops, fractions of a pixel, casters whose vertices change, water, and roofs that a callback or a clip plane keeps from the
+/// view: rays see all of these, or none.
+TEST(RandomScenes, OfLaterSeedsHaveMoreKinds) {
+    unsigned backdrops = 0, fractions = 0, edited = 0, water = 0, culled = 0, cut = 0;
+    for (unsigned seed = firstOfMoreKinds; seed < firstOfMoreKinds + 500; ++seed) {
+        const RandomScene scene = randomScene(seed);
+        backdrops += scene.backdrop;
+        fractions += scene.fraction > 0.0;
+        culled += scene.roof == RandomScene::Roof::CULLED;
+        cut += scene.roof == RandomScene::Roof::CUT;
+        for (const RandomCaster& caster : scene.casters) {
+            edited += caster.edited;
+            water += describe(scene).find("of water") != std::string::npos;
+        }
+    }
+    for (const unsigned count : {backdrops, fractions, edited, water, culled, cut}) EXPECT_GT(count, 30u);
+}
+
 /// A scene without shadows is as wrong with one box on level ground as with all else.
 TEST(RandomScenes, OfAFaultAreMadeAsPlainAsTheyCanBe) {
     std::vector<RandomFault> faults;

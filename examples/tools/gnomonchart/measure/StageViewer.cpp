@@ -40,7 +40,10 @@ StageViewer::StageViewer(std::unique_ptr<Staging> staging, const SceneCamera& ca
     settle(*_viewer.getCamera());
     _viewer.getCamera()->setClearColor(_staging->background());
     setCamera(camera);
-    _viewer.setSceneData(&_staging->root());
+    if (camera.fraction > 0.0)
+        _viewer.getCamera()->setViewport(new osg::Viewport(
+            camera.fraction, camera.fraction, camera.width + camera.fraction, camera.height + camera.fraction));
+    _viewer.setSceneData(_staging->shown());
 }
 
 void StageViewer::setCamera(const SceneCamera& camera) {
@@ -86,7 +89,9 @@ std::string fileName(const std::vector<std::string>& parts, const std::string& e
 }
 
 Sight::Sight(const Contender& contender, const ChartScene& scene)
-    : _viewer(contender.stage(scene, Look::VISIBILITY), scene.camera, StageViewer::Colour::FLOATS) {}
+    : _viewer(contender.stage(scene, Look::VISIBILITY), scene.camera, StageViewer::Colour::FLOATS) {
+    for (int frame = 0; frame < scene.framesBefore; ++frame) _viewer.draw();
+}
 
 metrics::Picture Sight::frame() {
     _viewer.draw();

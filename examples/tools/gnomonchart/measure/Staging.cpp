@@ -133,7 +133,8 @@ Staging::Staging(const ChartScene& scene, Look look)
       _light(new osg::Light(0)),
       _mount(new osg::MatrixTransform),
       _centre(scene.center),
-      _look(look) {
+      _look(look),
+      _around(scene.around) {
     osg::ref_ptr<osg::LightSource> source = new osg::LightSource;
     source->setLight(_light);
     _mount->addChild(source);

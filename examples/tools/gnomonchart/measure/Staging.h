@@ -32,6 +32,8 @@ public:
     Staging& operator=(const Staging&) = delete;
 
     osg::Group& root() { return *_root; }
+    /// The root, below or beside what the scene has around it.
+    osg::ref_ptr<osg::Node> shown() { return _around ? _around(*_root) : osg::ref_ptr<osg::Node>(_root); }
     /// Colour behind the scene; black where black is full shadow.
     osg::Vec4 background() const;
     /// @param light  homogeneous, world.
@@ -56,6 +58,7 @@ private:
     osg::ref_ptr<osg::MatrixTransform> _mount;
     osg::Vec3d _centre; ///< of the view: lamps point at it, for techniques that ask.
     Look _look;
+    std::function<osg::ref_ptr<osg::Node>(osg::Node&)> _around;
 };
 
 /// A scene without shadows.

@@ -7,6 +7,7 @@
 #include <osg/Group>
 #include <osg/Vec4d>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,9 @@ struct ChartScene {
     osg::BoundingBoxd bounds;         ///< of the content, world.
     osg::Vec3d center;                ///< what the camera looks at, world.
     double radius = 1.0;              ///< of the scene's bounds without its ground, scene's unit.
+    int framesBefore = 0;             ///< that are drawn before what is measured: until then vertices change.
+    /// Puts all that a contender draws below or beside more: a camera, a backdrop. Empty: nothing.
+    std::function<osg::ref_ptr<osg::Node>(osg::Node& root)> around;
 };
 
 /// The camera moved on by `step` degrees about the vertical through what it looks at; the light turned likewise. Near and

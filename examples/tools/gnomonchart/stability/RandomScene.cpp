@@ -5,6 +5,7 @@
 #include "scenes/SceneParts.h"
 
 #include <osg/AlphaFunc>
+#include <osg/Camera>
 #include <osg/ClipNode>
 #include <osg/ColorMask>
 #include <osg/CullFace>
@@ -15,6 +16,7 @@
 #include <osg/PolygonMode>
 #include <osg/PrimitiveRestartIndex>
 #include <osg/PrimitiveSetIndirect>
+#include <osg/Projection>
 #include <osg/Texture2D>
 
 #include <algorithm>
@@ -32,8 +34,11 @@ constexpr double hillHeight = 1.2; // metres
 constexpr double slopeDegrees = 18.0;
 constexpr double clippedAt = 0.5; // of a unit mesh's height
 constexpr unsigned clipPlanes = 6;
-constexpr float clear = 0.3f, solid = 1.0f; // alpha
+constexpr float clear = 0.3f, solid = 1.0f, waterAlpha = 0.7f; // alpha
+constexpr int framesOfEdit = 2;
+constexpr double roofAbove = 2.0, roofSide = 4.0; // metres, over the eye
 const RandomScene usual;
+constexpr const char* roofs[] = {"", ", culled roof", ", roof cut by a nested camera"};
 constexpr const char* groundNames[] = {"flat", "tilted", "hills"};
 
 /// std's distributions differ between libraries.
@@ -180,6 +185,15 @@ osg::ref_ptr<osg::Material> material(osg::Material::ColorMode mode, float alpha)
     return result;
 }
 
+/// Black, as what is clear: but most of the light behind it is kept back.
+void water(osg::StateSet& set) {
+    const osg::ref_ptr<osg::Material> dark = new osg::Material;
+    dark->setDiffuse(osg::Material::FRONT_AND_BACK, {0.0f, 0.0f, 0.0f, waterAlpha});
+    dark->setAmbient(osg::Material::FRONT_AND_BACK, {0.0f, 0.0f, 0.0f, waterAlpha});
+    set.setAttribute(dark);
+    blend(set);
+}
+
 /// By indices, and through buffers.
 void setIndices(osg::Geometry& geometry, osg::PrimitiveSet* indices) {
     geometry.setPrimitiveSet(0, indices);
@@ -270,7 +284,10 @@ constexpr State states[] = {
      }},
     {"of lines", Rays::NOTHING,
      [](G&, S& s) { s.setAttribute(new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK, osg::PolygonMode::LINE)); }},
+    {"of water", Rays::NOTHING, [](G&, S& s) { water(s); }}, // of seeds with more kinds
 };
+
+constexpr int waterState = static_cast<int>(std::size(states)) - 1;
 
 const State& stateOf(const RandomCaster& caster) { return states[caster.state]; }
 bool isClipped(const RandomCaster& caster) { return stateOf(caster).rays == Rays::BELOW_PLANE; }
@@ -292,12 +309,30 @@ void breakMesh(Mesh& mesh) {
     mesh.insert(mesh.end(), {corner, corner, corner, corner, bad, corner, bad, bad, bad});
 }
 
+/// Moves a geode's vertices in place, and tells OpenSceneGraph by dirtyBound() and dirtyGLObjects() alone.
+struct Edit : public osg::NodeCallback {
+    void operator()(osg::Node* node, osg::NodeVisitor* visitor) override {
+        const bool elsewhere = int(visitor->getFrameStamp()->getFrameNumber()) < framesOfEdit;
+        osg::Geometry& geometry = *node->asGeode()->getDrawable(0)->asGeometry();
+        if (elsewhere != isElsewhere) {
+            for (osg::Vec3& corner : static_cast<osg::Vec3Array&>(*geometry.getVertexArray()))
+                corner.x() += elsewhere ? 1.5f : -1.5f;
+            geometry.dirtyGLObjects();
+            geometry.dirtyBound();
+        }
+        isElsewhere = elsewhere;
+        traverse(node, visitor);
+    }
+    bool isElsewhere = false; ///< of the vertices, which copies of the node share.
+};
+
 /// @param drawn  not as rays see it. @param plane  see withState().
 osg::ref_ptr<osg::Node> casterNode(const RandomCaster& caster, bool drawn, unsigned plane) {
     Mesh mesh = shapes[caster.shape].mesh();
     if (drawn && caster.broken) breakMesh(mesh);
     if (!drawn && isClipped(caster)) mesh = clipped(mesh, clippedAt);
     osg::ref_ptr<osg::Node> below = node(mesh);
+    if (drawn && caster.edited) below->setUpdateCallback(new Edit);
     if (drawn || stateOf(caster).rays == Rays::FACES) // the eye sees them so, too
         below = withState(*below->asGeode(), caster, plane);
     for (int i = 0; i < caster.transforms; ++i) {
@@ -322,6 +357,46 @@ osg::Matrixd placeOf(const RandomScene& scene) {
            osg::Matrixd::translate(scene.offset, -0.6 * scene.offset, 0.1 * scene.offset);
 }
 
+/// Between the sun and what the camera looks at, above the eye.
+osg::ref_ptr<osg::Node> roofNode(const RandomScene& scene, bool drawn) {
+    const glm::dvec3 sun(scene.light), foot = scene.center + sun * ((scene.eye.z + roofAbove - scene.center.z) / sun.z);
+    const osg::ref_ptr<osg::Node> roof = node(boxAt(foot, {roofSide, roofSide, 0.5}));
+    struct Cull : public osg::NodeCallback {
+        void operator()(osg::Node*, osg::NodeVisitor*) override {}
+    };
+    if (drawn && scene.roof == RandomScene::Roof::CULLED) roof->setCullCallback(new Cull);
+    return roof;
+}
+
+/// As OpenSceneGraph's users draw a sky: first, through a projection of its own, without depth.
+osg::ref_ptr<osg::Node> backdropNode() {
+    const osg::ref_ptr<osg::Projection> projection = new osg::Projection(osg::Matrixd::ortho2D(0.0, 1.0, 0.0, 1.0));
+    const osg::ref_ptr<osg::MatrixTransform> view = new osg::MatrixTransform;
+    view->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
+    view->addChild(node(quad({0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0})));
+    projection->addChild(view);
+    osg::StateSet& set = *projection->getOrCreateStateSet();
+    set.setMode(GL_LIGHTING, osg::StateAttribute::OFF);
+    set.setAttributeAndModes(new osg::Depth(osg::Depth::ALWAYS, 0.0, 1.0, false));
+    set.setRenderBinDetails(-10, "RenderBin");
+    projection->setCullingActive(false);
+    return projection;
+}
+
+/// Cuts what is above the eye, as the pass of a mirror cuts what is on the other side.
+osg::ref_ptr<osg::Group> cutAboveEye(osg::Node& below, const osg::Vec3d& eye) {
+    const osg::ref_ptr<osg::Camera> camera = new osg::Camera;
+    camera->setRenderOrder(osg::Camera::NESTED_RENDER);
+    camera->setReferenceFrame(osg::Transform::RELATIVE_RF);
+    camera->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+    camera->setClearMask(0);
+    const osg::ref_ptr<osg::ClipNode> clip = new osg::ClipNode;
+    clip->addClipPlane(new osg::ClipPlane(clipPlanes, osg::Vec4d(0.0, 0.0, -1.0, eye.z())));
+    clip->addChild(&below);
+    camera->addChild(clip);
+    return camera;
+}
+
 osg::ref_ptr<osg::Group> contentOf(const RandomScene& scene, bool drawn) {
     osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(placeOf(scene));
     place->addChild(groundNode(scene));
@@ -337,6 +412,7 @@ osg::ref_ptr<osg::Group> contentOf(const RandomScene& scene, bool drawn) {
         far->addChild(node(shapes[0].mesh()));
         place->addChild(far);
     }
+    if (scene.roof != RandomScene::Roof::NONE) place->addChild(roofNode(scene, drawn));
     osg::ref_ptr<osg::Group> content = new osg::Group;
     content->addChild(place);
     return content;
@@ -350,9 +426,25 @@ void addStates(RandomScene& scene, Dice& dice) {
     unsigned clips = 0;
     for (RandomCaster& caster : scene.casters) {
         if (dice.one(12)) caster.shape = fenceShape;
-        if (dice.one(3)) caster.state = 1 + dice.below(static_cast<int>(std::size(states)) - 1);
+        if (dice.one(3)) caster.state = 1 + dice.below(waterState - 1);
         if (isClipped(caster) && ++clips > clipPlanes) caster.state = 0;
     }
+}
+
+/// A roof is out of sight only where nothing above the eye is in sight.
+void addMoreKinds(RandomScene& scene, Dice& dice) {
+    scene.backdrop = dice.one(4);
+    if (dice.one(4)) scene.fraction = dice.between(0.1, 0.9);
+    for (RandomCaster& caster : scene.casters) {
+        if (dice.one(6)) caster.state = waterState;
+        caster.edited = dice.one(6) && !isClipped(caster);
+    }
+    const bool wantsRoof = dice.one(3), isCut = dice.one(2);
+    if (!wantsRoof || scene.light.w != 0.0 || scene.light.z < 0.4) return;
+    scene.roof = isCut ? RandomScene::Roof::CUT : RandomScene::Roof::CULLED;
+    const glm::dvec3 way = scene.eye - scene.center;
+    const double top = std::tan(osg::DegreesToRadians(scene.fovy / 2.0 + 3.0));
+    scene.eye.z = std::max(scene.eye.z, scene.center.z + std::hypot(way.x, way.y) * top);
 }
 
 /// Walls stand within some degrees of a plane with the sun.
@@ -387,6 +479,7 @@ RandomScene randomScene(unsigned seed) {
     if (dice.one(6) && scene.ground != RandomScene::Ground::HILLS) scene.half = std::pow(10.0, dice.between(2.0, 5.0));
     if (dice.one(8)) scene.stray = std::pow(10.0, dice.between(2.0, 7.0));
     if (dice.one(5) && scene.light.w == 0.0) turnAlong(scene, dice.between(-5.0, 5.0));
+    if (seed >= firstOfMoreKinds) addMoreKinds(scene, dice);
     return scene;
 }
 
@@ -405,7 +498,19 @@ StabilityCase caseOf(const RandomScene& scene, int width, int height) {
         parts.near = 1.0 * scene.scale;
         parts.far = std::max(100.0, 3.0 * scene.half) * scene.scale;
     }
-    return stabilityCase(parts, width, height);
+    StabilityCase result = stabilityCase(parts, width, height);
+    result.scene.camera.fraction = scene.fraction;
+    for (const RandomCaster& caster : scene.casters)
+        if (caster.edited) result.scene.framesBefore = framesOfEdit;
+    const bool cuts = scene.roof == RandomScene::Roof::CUT;
+    if (!cuts && !scene.backdrop) return result;
+    result.scene.around = [cuts, backdrop = scene.backdrop, eye = parts.eye](osg::Node& root) {
+        osg::ref_ptr<osg::Group> all = new osg::Group;
+        if (backdrop) all->addChild(backdropNode());
+        all->addChild(cuts ? cutAboveEye(root, eye).get() : &root);
+        return osg::ref_ptr<osg::Node>(all);
+    };
+    return result;
 }
 
 std::vector<RandomScene> simpler(const RandomScene& scene) {
@@ -422,9 +527,13 @@ std::vector<RandomScene> simpler(const RandomScene& scene) {
     add([](RandomScene& s) { s.scale = 1.0; });
     add([](RandomScene& s) { s.half = usual.half; });
     add([](RandomScene& s) { s.stray = 0.0; });
+    add([](RandomScene& s) { s.roof = RandomScene::Roof::NONE; });
+    add([](RandomScene& s) { s.backdrop = false; });
+    add([](RandomScene& s) { s.fraction = 0.0; });
     add([](RandomScene& s) { s.ground = RandomScene::Ground::FLAT; });
     for (std::size_t i = 0; i < scene.casters.size(); ++i) {
         add([i](RandomScene& s) { s.casters[i].broken = false; });
+        add([i](RandomScene& s) { s.casters[i].edited = false; });
         add([i](RandomScene& s) { s.casters[i].state = 0; });
         add([i](RandomScene& s) { s.casters[i].transforms = 0; });
         add([i](RandomScene& s) { s.casters[i].shape = 0; });
@@ -445,14 +554,15 @@ std::string describe(const RandomScene& scene) {
     out << ", center ";
     put(scene.center);
     out << ", fovy " << scene.fovy << ", offset " << scene.offset << ", scale " << scene.scale << ", half "
-        << scene.half << ", stray " << scene.stray;
+        << scene.half << ", stray " << scene.stray << roofs[int(scene.roof)] << (scene.backdrop ? ", backdrop" : "");
+    if (scene.fraction > 0.0) out << ", viewport off by " << scene.fraction << " px";
     for (const RandomCaster& caster : scene.casters) {
         out << "; " << shapes[caster.shape].name << " " << stateOf(caster).name << " at ";
         put(caster.foot);
         out << " of ";
         put(caster.size);
         out << " turned " << caster.turn << ", tilted " << caster.tilt << ", " << caster.transforms << " transforms"
-            << (caster.broken ? ", broken" : "");
+            << (caster.broken ? ", broken" : "") << (caster.edited ? ", edited" : "");
     }
     return out.str();
 }

@@ -19,6 +19,7 @@ struct RandomCaster {
     double turn = 0.0, tilt = 0.0; ///< degrees, about the vertical and about x.
     int transforms = 0;            ///< above it, mirrored and stretched in turns.
     bool broken = false;           ///< holds triangles with NaN and without area.
+    bool edited = false;           ///< stands elsewhere for two frames, then its vertices are changed in place.
 };
 
 /// A scene that a seed makes, the same on every machine.
@@ -35,7 +36,20 @@ struct RandomScene {
     double scale = 1.0;  ///< of all of it.
     double half = 14.0;  ///< of the ground's side.
     double stray = 0.0;  ///< how far away another box is; 0: there is none.
+
+    /// A slab above the eye, out of sight, whose shadow is in sight.
+    enum class Roof {
+        NONE,
+        CULLED, ///< by a callback.
+        CUT     ///< by a clip plane of a camera above all.
+    };
+    Roof roof = Roof::NONE;
+    bool backdrop = false; ///< drawn first, through a projection of its own.
+    double fraction = 0.0; ///< of a pixel, see SceneCamera.
 };
+
+/// Seeds from here on have roofs, backdrops, fractions, water and edited casters, too.
+constexpr unsigned firstOfMoreKinds = 10001;
 
 RandomScene randomScene(unsigned seed);
 StabilityCase caseOf(const RandomScene& scene, int width, int height);
