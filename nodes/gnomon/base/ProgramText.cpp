@@ -3,6 +3,8 @@
 
 #include <OpenThreads/Mutex>
 #include <OpenThreads/ScopedLock>
+#include <osg/FragmentProgram>
+#include <osg/VertexProgram>
 
 #include <algorithm>
 #include <cctype>
@@ -308,8 +310,12 @@ bool mayApplyProgram(const osg::StateAttribute& attribute) {
     using A = osg::StateAttribute;
     const A::Type type = attribute.getType();
     if (type == A::PROGRAM) return !dynamic_cast<const osg::Program*>(&attribute);
-    const bool isArb = type == A::VERTEXPROGRAM || type == A::FRAGMENTPROGRAM;
-    return isArb || attribute.getShaderComponent() || (type > A::SAMPLER && type != A::CAPABILITY);
+    if (const auto* vertex = dynamic_cast<const osg::VertexProgram*>(&attribute))
+        return !contains(vertex->getVertexProgram(), "ARB_position_invariant");
+    if (const auto* fragment = dynamic_cast<const osg::FragmentProgram*>(&attribute))
+        return contains(fragment->getFragmentProgram(), "KIL") ||
+               contains(fragment->getFragmentProgram(), "result.depth");
+    return attribute.getShaderComponent() || (type > A::SAMPLER && type != A::CAPABILITY);
 }
 
 } // namespace gnomon

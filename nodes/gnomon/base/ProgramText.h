@@ -18,7 +18,7 @@ struct ProgramPlaces {
     /// The same by their place in the picture, as screen-door fades do. Through functions that compute from it, not through
     /// their arguments.
     bool discardsByPixel = false;
-    /// Its text is not known: see mayApplyProgram(). All of the above may be.
+    /// Its text is not known: see mayApplyProgram(). It counts as one that does all of the above but the last.
     bool unseen = false;
 };
 
@@ -29,7 +29,7 @@ bool mayDiscard(const osg::Program& program);
 /// True if its text writes gl_ClipDistance, which a clip mode of each of its elements switches on.
 bool writesClipDistance(const osg::Program& program);
 /// True of an attribute that may draw by a program, and is no osg::Program: one of a type that OpenSceneGraph does not know, as
-/// osgEarth's VirtualProgram, one of its shader composition's, or an ARB program.
+/// osgEarth's VirtualProgram, one of its shader composition's, or an ARB program that may move, discard or set a depth.
 bool mayApplyProgram(const osg::StateAttribute& attribute);
 
 } // namespace gnomon

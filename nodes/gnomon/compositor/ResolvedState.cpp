@@ -117,7 +117,7 @@ ProgramPlaces placesIn(const osgUtil::StateGraph* graph) {
         if (!each->getStateSet()) continue;
         for (const auto& [type, pair] : each->getStateSet()->getAttributeList())
             if (mayApplyProgram(*pair.first) && resolvedAttribute(graph, type.first) == pair.first.get())
-                return {true, true, true, true};
+                return {true, true, true, false, true};
     }
     const auto* program = resolved<osg::Program>(graph, osg::StateAttribute::PROGRAM);
     return program && program->getNumShaders() > 0 ? placesOf(*program) : ProgramPlaces();
