@@ -179,10 +179,11 @@ std::string fileIn(const std::string& name) {
     return shorter != name ? fileIn(shorter) : "";
 }
 
-/// Why a file that is there cannot be read.
+/// Why a file that is there cannot be read. The ending .gdal chooses GDAL, whatever the file's own is.
 std::string causeOf(const std::string& name) {
     const std::string ending = osgDB::getLowerCaseFileExtension(fileIn(name));
-    const bool hasPlugin = ending.empty() || osgDB::Registry::instance()->getReaderWriterForExtension(ending);
+    const bool hasPlugin = ending.empty() || osgDB::getLowerCaseFileExtension(name) == "gdal" ||
+                           osgDB::Registry::instance()->getReaderWriterForExtension(ending);
     return hasPlugin ? damaged : "no plugin of OpenSceneGraph here reads files that end in ." + ending;
 }
 

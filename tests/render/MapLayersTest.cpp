@@ -353,6 +353,7 @@ TEST(MapLayers, DrawWhatMovesAlone) {
         EXPECT_EQ(moved.maps, 1u) << step;
         EXPECT_EQ(moved.triangles, still.triangles + boxTriangles) << step;
     }
+    EXPECT_EQ(Drawn(stage, camera).triangles, still.triangles + all) << "it comes to rest";
     EXPECT_EQ(Drawn(stage, camera).triangles, still.triangles) << "and stands still";
 }
 
