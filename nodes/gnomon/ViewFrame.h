@@ -69,8 +69,9 @@ struct GNOMON_EXPORT ViewFrame {
     std::size_t lights = 1;                       ///< whose shadows the group wants in the view.
     std::map<int, double> strengths;              ///< of these, see GroupLights.
     std::vector<const osgUtil::RenderLeaf*> seen; ///< leaves that can receive: those, or all of the view.
-    bool movesReceivers = false;          ///< Programs move some of `seen` out of their boxes, anywhere in the view.
-    const ProgramCauses* drawn = nullptr; ///< tells which casters the view draws; null if nobody knows.
+    bool movesReceivers = false; ///< Programs move some of `seen` out of their boxes, anywhere in the view.
+    const ProgramCauses* drawn =
+        nullptr; ///< Tells which casters the view draws, within prepare(); null if nobody knows.
 
     /// Takes the group's frame to clip space.
     osg::Matrixd clipFromGroup() const { return eyeFromGroup * projection; }

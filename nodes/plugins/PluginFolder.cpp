@@ -8,12 +8,12 @@
 
 namespace {
 
-/// Has OpenSceneGraph look first beside the library, where its plugins' folder lies.
+/// Has OpenSceneGraph look beside the library, where its plugins' folder lies, after the folders that it knows.
 bool namePluginFolder() {
     Dl_info library{};
     if (!dladdr(reinterpret_cast<const void*>(&namePluginFolder), &library)) return false;
     const std::string file = osgDB::getRealPath(library.dli_fname);
-    osgDB::Registry::instance()->getLibraryFilePathList().push_front(osgDB::getFilePath(file));
+    osgDB::Registry::instance()->getLibraryFilePathList().push_back(osgDB::getFilePath(file));
     return true;
 }
 

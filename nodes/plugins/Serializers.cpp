@@ -210,9 +210,11 @@ GNOMON_WRAPPER(ShadowCasterGroup, newGroup(), "osg::Object osg::Node osg::Group"
     ADD_USER_SERIALIZER(Spots);
     addList<MyClass, &MyClass::getLightUniforms, &MyClass::setLightUniforms>(*wrapper, "LightUniforms");
     fields::addCompositorOptions<MyClass>(*wrapper);
-    UPDATE_TO_VERSION_SCOPED(4)
-    fields::addEnum(*wrapper, "Clipping", &MyClass::getClipping, &MyClass::setClipping,
-                    {{"GRAPH", MyClass::GRAPH}, {"ALL", MyClass::ALL}, {"NONE", MyClass::NONE}});
+    {
+        UPDATE_TO_VERSION_SCOPED(4)
+        fields::addEnum(*wrapper, "Clipping", &MyClass::getClipping, &MyClass::setClipping,
+                        {{"GRAPH", MyClass::GRAPH}, {"ALL", MyClass::ALL}, {"NONE", MyClass::NONE}});
+    }
 }
 
 GNOMON_WRAPPER(ShadowTechnique, nullptr, "osg::Object osg::Node osg::Geode", "") {

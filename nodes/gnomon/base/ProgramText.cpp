@@ -205,7 +205,8 @@ public:
         }
     }
 
-    bool arrives() const { return _arrives; }
+    /// True if all that is discarded is by the pixel: of leaves that fade the outline stays.
+    bool arrives() const { return _arrives && !_discardsOtherwise; }
 
 private:
     void take(const Tokens& statement, bool opens) {
@@ -215,6 +216,7 @@ private:
         const bool byPixel = isByPixel(statement) || (has("else") && _condition) ||
                              std::find(_blocks.begin(), _blocks.end(), true) != _blocks.end();
         _arrives = _arrives || (byPixel && has(discard));
+        _discardsOtherwise = _discardsOtherwise || (!byPixel && has(discard));
         if (has("if")) _condition = byPixel;
         if (byPixel && has("return")) _names.insert(_function);
         if (byPixel) assign(statement);
@@ -247,7 +249,7 @@ private:
     std::vector<bool> _blocks; ///< that the statement is in: whether a pixel's place decides about each.
     std::string _function;
     bool _condition = false; ///< of the last if.
-    bool _arrives = false;
+    bool _arrives = false, _discardsOtherwise = false;
 };
 
 ProgramPlaces found(const osg::Program& program, const std::string& vertex, const std::string& fragment) {
@@ -310,11 +312,15 @@ bool mayApplyProgram(const osg::StateAttribute& attribute) {
     using A = osg::StateAttribute;
     const A::Type type = attribute.getType();
     if (type == A::PROGRAM) return !dynamic_cast<const osg::Program*>(&attribute);
-    if (const auto* vertex = dynamic_cast<const osg::VertexProgram*>(&attribute))
-        return !contains(vertex->getVertexProgram(), "ARB_position_invariant");
-    if (const auto* fragment = dynamic_cast<const osg::FragmentProgram*>(&attribute))
-        return contains(fragment->getFragmentProgram(), "KIL") ||
+    if (type == A::VERTEXPROGRAM) {
+        const auto* vertex = dynamic_cast<const osg::VertexProgram*>(&attribute);
+        return !vertex || !contains(vertex->getVertexProgram(), "ARB_position_invariant");
+    }
+    if (type == A::FRAGMENTPROGRAM) {
+        const auto* fragment = dynamic_cast<const osg::FragmentProgram*>(&attribute);
+        return !fragment || contains(fragment->getFragmentProgram(), "KIL") ||
                contains(fragment->getFragmentProgram(), "result.depth");
+    }
     return attribute.getShaderComponent() || (type > A::SAMPLER && type != A::CAPABILITY);
 }
 

@@ -119,6 +119,7 @@ private:
         const osg::ref_ptr<SelfDrawing> made = new SelfDrawing(getNodePath(), drawable, rootFromLocal(), casting);
         made->fingerprint = value.value();
         made->edition = edition;
+        if (known) made->list = known->list;
         _selfDrawings.push_back(made);
     }
 

@@ -65,7 +65,11 @@ bool ListWatch::mayBeStale(const osg::Drawable& drawable, unsigned contexts) {
             _hadList = true;
             return false;
         }
-    return _hadList || _visits++ < firstVisits;
+    if (_hadList) _visits = 0;
+    _hadList = false;
+    if (_visits == firstVisits) return false;
+    ++_visits;
+    return true;
 }
 
 } // namespace gnomon

@@ -12,7 +12,9 @@
 
 #include <algorithm>
 #include <cstring>
+#include <set>
 #include <string>
+#include <tuple>
 
 namespace gnomon {
 namespace {
@@ -132,10 +134,22 @@ bool ReleasedImages::haveOther() const {
     });
 }
 
+/// What is given again below has no effect, unless it overrides.
 bool changesUnseen(const DrawnStates& states) {
-    bool any = false;
-    forAttributes(states, [&any](const A& attribute) { any = any || isUntold(attribute); });
-    return any;
+    std::set<std::tuple<std::size_t, A::Type, unsigned>> given; // units and types; 0 is no unit's
+    for (auto set = states.rbegin(); set != states.rend(); ++set) {
+        const auto changes = [&given](std::size_t unit, const osg::StateSet::AttributeList& list) {
+            return std::any_of(list.begin(), list.end(), [&](const auto& entry) {
+                const bool isInnermost = given.insert({unit, entry.first.first, entry.first.second}).second;
+                return (isInnermost || (entry.second.second & A::OVERRIDE)) && isUntold(*entry.second.first);
+            });
+        };
+        const auto& units = (*set)->getTextureAttributeList();
+        if (changes(0, (*set)->getAttributeList())) return true;
+        for (std::size_t unit = 0; unit < units.size(); ++unit)
+            if (changes(unit + 1, units[unit])) return true;
+    }
+    return false;
 }
 
 void mixStates(const DrawnStates& states, Fingerprint& into) {

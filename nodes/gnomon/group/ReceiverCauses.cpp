@@ -278,17 +278,16 @@ void reportLargeCoordinates(const TechniqueInStage& asked, const ShadowLight& li
     Fingerprint seen;
     seen.mix(entry.eyeFromGroup);
     seen.mix(*entry.projection);
-    const RecalledCauses::State state{seen.value(), receiving.early.size() + receiving.late.size()};
+    seen.mix(std::uint64_t{receiving.early.size() + receiving.late.size()});
     const std::string cause =
         keptBy<RecalledCauses>(asked.stage)
-            .causeOf(RecalledCauses::Kind::LargeCoordinates, entry.technique.get(), lit, state, [&] {
+            .causeOf(RecalledCauses::Kind::LargeCoordinates, entry.technique.get(), lit, {seen.value(), 0}, [&] {
                 std::string name = drawnOffItsPlace(receiving.early, *entry.projection, pixels);
                 if (name.empty()) name = drawnOffItsPlace(receiving.late, *entry.projection, pixels);
                 if (name.empty()) return name;
                 return "the vertices of '" + name +
                        "' lie so far from their origin that OpenGL draws them off their place, so shadows on it may be "
-                       "lost "
-                       "or false. Put the offset into a transform, or use traced.";
+                       "lost or false. Put the offset into a transform, or use traced.";
             });
     if (!cause.empty()) entry.report(cause);
 }

@@ -139,9 +139,10 @@ void ProgramCauses::report(const FrameReport& report, const ShadowCasterGroup& g
 std::string ProgramCauses::firstUnseen(const ShadowCasterGroup& group, const Leaves& receiving,
                                        const Leaves& receivingLate) const {
     if (_unseen.empty()) return {};
-    for (const DrawnLeaf& entry : _unseen)
-        for (const Leaves* leaves : {&receiving, &receivingLate})
-            if (std::find(leaves->begin(), leaves->end(), entry.leaf) != leaves->end()) return nameOf(*entry.leaf);
+    for (const Leaves* leaves : {&receiving, &receivingLate})
+        for (const osgUtil::RenderLeaf* leaf : *leaves)
+            if (const auto places = _places.find(leaf->_parent); places != _places.end() && places->second.unseen)
+                return nameOf(*leaf);
     const osgUtil::RenderLeaf* caster = firstCaster(group, _unseen, _eyeFromWorld);
     return caster ? nameOf(*caster) : std::string();
 }

@@ -255,7 +255,8 @@ private:
             glEnable(GL_CLIP_PLANE0 + number);
         }
         const auto* program = _state.getLastAppliedProgramObject();
-        for (unsigned i = 0; program && writesClipDistance(*program->getProgram()) && i < 8; ++i)
+        const bool cuts = program && writesClipDistance(*program->getProgram());
+        for (unsigned i = 0; cuts && i < 8; ++i)
             if (_state.getLastAppliedMode(GL_CLIP_PLANE0 + i)) glEnable(GL_CLIP_PLANE0 + i);
         if (_state.getUseModelViewAndProjectionUniforms()) _state.applyModelViewAndProjectionUniformsIfRequired();
         caster.drawing->drawable->draw(_renderInfo);

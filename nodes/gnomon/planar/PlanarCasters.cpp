@@ -71,13 +71,13 @@ struct LevelTriangles {
     glm::dvec2 heights{0.0}; ///< least and greatest; 0 of what lies there but for rounding.
 };
 
-/// Whether a body has such triangles above the plane.
+/// Whether a body ends in the plane, and has such triangles above it: a floor.
 bool hasLevelAbove(const PlacedMesh& placed, const glm::dvec4& plane) {
     const osg::BoundingBoxd& box = placed.mesh->bounds;
     const glm::dvec3 middle = toGlm(placed.mesh->origin);
     const auto corners = boxCorners(toGlm(box._min) - middle, toGlm(box._max) - middle, placed.sceneFromMesh);
     const double most = flatness * placed.stretched * box.radius();
-    return std::any_of(corners.begin(), corners.end(), [&](const auto& at) { return glm::dot(plane, at) <= most; }) &&
+    return std::all_of(corners.begin(), corners.end(), [&](const auto& at) { return glm::dot(plane, at) <= most; }) &&
            LevelTriangles(placed, plane, Heights(placed, plane)).heights.y > 0.0;
 }
 

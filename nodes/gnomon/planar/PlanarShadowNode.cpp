@@ -67,7 +67,9 @@ public:
     /// @param vertices  at most so many are looked at.
     SurfaceHeights(const osg::Drawable& drawable, const glm::dvec4& plane, unsigned vertices)
         : TriangleDecoder({}), _plane(plane), _most(vertices) {
-        readTriangles(drawable, *this);
+        const osg::Geometry* geometry = drawable.asGeometry();
+        const osg::Array* array = geometry ? geometry->getVertexArray() : nullptr;
+        if (!array || array->getNumElements() <= vertices) readTriangles(drawable, *this);
     }
     ~SurfaceHeights() override = default;
 
@@ -99,6 +101,8 @@ private:
     bool _looks = false;
 };
 
+constexpr unsigned mostOfAFloor = 1000; // vertices: floors have few
+
 /// What PlanarMark takes for the plane at the far plane: 32 steps of 24 bits of depth, where the near plane is at 0.0005 of the
 /// distance, as OpenSceneGraph computes it. A surface as large as its distance may be off by so much.
 constexpr double unevenness = PlanarMark::tolerance.y / (1 << 24) / 0.0005;
@@ -113,11 +117,10 @@ double topOver(const glm::dvec4& plane, const osgUtil::RenderLeaf& leaf, double 
 
 /// True if a leaf ends in the plane, or close to it: a floor, or the top of a slab.
 bool endsIn(const osgUtil::RenderLeaf& leaf, const glm::dvec4& eyePlane) {
-    constexpr unsigned most = 1000; // vertices: floors have few
     const osg::BoundingBox& box = leaf._drawable->getBoundingBox();
     const auto plane = normalizedPlane(glm::transpose(toGlm(modelviewOf(leaf))) * eyePlane);
     if (!box.valid() || !plane) return false;
-    const double top = topOver(*plane, leaf, SurfaceHeights(*leaf._drawable, *plane, most).top);
+    const double top = topOver(*plane, leaf, SurfaceHeights(*leaf._drawable, *plane, mostOfAFloor).top);
     return std::abs(top) <= unevenness * 2.0 * box.radius();
 }
 
@@ -289,7 +292,7 @@ std::string PlanarShadowNode::flawOn(const ViewFrame& view, const osgUtil::Rende
         const glm::dvec4 inLeaf = glm::transpose(toGlm(modelviewOf(leaf))) * *inEye;
         const auto plane = normalizedPlane(inLeaf);
         if (!plane) continue;
-        const SurfaceHeights heights(*leaf._drawable, *plane, 100000);
+        const SurfaceHeights heights(*leaf._drawable, *plane, hasReceiver() ? 100000 : mostOfAFloor);
         const double top = topOver(*plane, leaf, heights.top), most = flatness * box.radius();
         const double farthest = hasReceiver() ? heights.farthest : 0.0;
         const auto say = [&](double height, const char* what) {

@@ -160,7 +160,8 @@ std::vector<osg::ref_ptr<ShadowTechnique>> addShadows(ShadowCasterGroup& group, 
     for (const ShadowSpec& spec : specs)
         if (osg::ref_ptr<ShadowTechnique> node = makeTechnique(group, spec)) made.push_back(node);
     setComposite(group, specs);
-    if (auto* scene = dynamic_cast<ShadowedScene*>(&group)) replaceShadow(*scene, made);
+    auto* scene = dynamic_cast<ShadowedScene*>(&group);
+    if (scene && !specs.empty()) replaceShadow(*scene, made);
     for (const osg::ref_ptr<ShadowTechnique>& node : made)
         if (!group.containsNode(node)) group.addChild(node);
     return made;
