@@ -90,6 +90,25 @@ TEST(Casters, AreReadAgainOnceADisplayListIsReleased) {
     }
 }
 
+/// It hands out no triangles, and has a list that no view makes.
+struct Silent : public osg::Drawable {
+    Silent() { setUseDisplayList(true); }
+    Silent(const Silent& other, const osg::CopyOp& copyOp) : osg::Drawable(other, copyOp) {}
+    META_Object(test, Silent)
+    osg::BoundingBox computeBoundingBox() const override { return {0.0f, 0.0f, 0.0f, 1.0f, 1.0f, 1.0f}; }
+    void drawImplementation(osg::RenderInfo&) const override {}
+};
+
+TEST(Casters, OfWhatNoViewDrawsComeToRest) {
+    const osg::ref_ptr<Silent> drawable = new Silent;
+    const auto now = [&](const osg::ref_ptr<const Casters>& known) { return Casters::of(*drawable, {}, known); };
+    auto known = now(nullptr);
+    ASSERT_EQ(known->selfDrawings.size(), 1u);
+    for (int visit = 0; visit < 8; ++visit)
+        known = now(known); // the first may be those of views that have not drawn it yet
+    EXPECT_EQ(now(known), known);
+}
+
 TEST(Casters, OfAChangeAreNewOnlyWhereItIs) {
     Row row;
     auto known = row.now(nullptr);

@@ -130,6 +130,10 @@ TEST(ProgramText, AScreenDoorDiscardsByTheFragmentsPlaceInThePicture) {
     EXPECT_FALSE(
         byPixel("uniform sampler2D t, light; varying vec2 at; void main() { if (texture2D(t, at).a < 0.5) discard;\n"
                 "gl_FragColor = texture2D(light, gl_FragCoord.xy / 512.0); }"));
+    EXPECT_FALSE(byPixel(
+        "uniform sampler2D t; uniform float fade; varying vec2 at; void main() { if (texture2D(t, at).a < 0.5)\n"
+        "discard; if (fract(gl_FragCoord.x * 0.5) >= fade) discard; }"))
+        << "leaves keep their outline";
     EXPECT_FALSE(byPixel("void main() { if (gl_FragCoord.z > 0.5) discard; gl_FragColor = vec4(gl_FragCoord.x); }"));
     EXPECT_FALSE(byPixel("varying vec2 at; float shade() { return gl_FragCoord.y; } float cut(vec2 p) { return p.x; }\n"
                          "void main() { if (cut(at) < 0.5) { discard; } gl_FragColor = vec4(shade()); }"));
