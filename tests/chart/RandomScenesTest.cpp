@@ -40,6 +40,14 @@ TEST(RandomScenes, NeverLoseAShadowWithoutAWord) {
               inCi);
 }
 
+/// Before their faults were mended, 10015, 10036 and 10044 lost shadows in `map`, the last in `volume`, too.
+TEST(RandomScenes, OfMoreKindsNeverLoseAShadowWithoutAWord) {
+    RandomSearch search = searchOf(45, techniques({"map", "volume"}));
+    search.first = firstOfMoreKinds;
+    EXPECT_EQ(searchRandomScenes(search, goOn, [](const RandomFault& fault) { ADD_FAILURE() << faultText(fault); }),
+              search.count);
+}
+
 TEST(RandomScenes, AreTheSameForTheSameSeed) {
     for (const unsigned seed : {1u, 7u, 10000u}) EXPECT_EQ(describe(randomScene(seed)), describe(randomScene(seed)));
     EXPECT_NE(describe(randomScene(1)), describe(randomScene(2)));
