@@ -57,6 +57,8 @@ struct CasterView;
 ///   them: while the camera moves they are read again. What is not drawn does not cast either: what clip planes, culling of
 ///   both faces, masks, tests that never pass or an empty scissor box take away, and polygons drawn as lines or points.
 ///   Nor does what is drawn at the far plane, as skies are. Of what a stipple thins out, half must be left.
+/// - Within the length of a facet behind the rim of a smooth body nothing gets its shadow: see setTerminatorOffset(). Under
+///   BLEND the unlit side of a body ends in its facets' outline.
 /// - A ClipPlane that is no ClipNode's is taken as given in the frame of each drawable that it cuts.
 /// - A drawable that draws itself, or is made of patches, casts in ShadowMapTechnique alone. Others report it.
 /// - Quads that are not flat cast as NVIDIA's and Mesa's drivers cut them, by the driver's name; others may cut them otherwise.
@@ -83,6 +85,7 @@ struct CasterView;
 ///       LightUniforms 1 { 0 "sunColor" }
 ///       CompositorOptions 15 TRUE 10000
 ///       Clipping ALL
+///       TerminatorOffset FALSE
 ///     }
 class GNOMON_EXPORT ShadowCasterGroup : public osg::Group, public ShowsChildren, public NamesNodes {
 public:
@@ -128,6 +131,13 @@ public:
     void setClipping(Clipping clipping);
     /// See setClipping().
     Clipping getClipping() const { return _clipping; }
+
+    /// Whether smoothly shaded bodies cast from a little farther on at their terminator, so that they have no teeth there: by
+    /// the length of a facet, along the light's rays, where vertex normals are within 20 degrees of the facets. Outlines of
+    /// shadows stay. Off: their facets shadow one another as they stand. Default true.
+    void setTerminatorOffset(bool offset);
+    /// See setTerminatorOffset().
+    bool getTerminatorOffset() const { return _terminatorOffset; }
 
     /// How shadowed pixels are darkened. Default RELIGHT, which also replaces any unknown value.
     void setComposite(Composite composite) { _composite = composite == BLEND ? BLEND : RELIGHT; }
@@ -197,6 +207,7 @@ private:
     ObservedSelection _casters;
     Composite _composite = RELIGHT;
     Clipping _clipping = GRAPH;
+    bool _terminatorOffset = true;
     float _dark = 0.5f, _opaqueFrom = -1.0f;
     std::vector<ObservedNode> _lightSources;
     std::vector<ShadowLight> _lights;

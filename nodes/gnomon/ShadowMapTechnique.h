@@ -37,7 +37,7 @@ class ShadowMapCache;
 /// - On a ground of many kilometres that begins under a close near plane, things of centimetres may lose their shadow, if the
 ///   ground is one drawable of more than 2,000 triangles or a program moves it.
 /// - Facets decide what faces away from the light, and such a facet is wholly in shadow; one along the light is wholly lit or
-///   wholly dark. On finely facetted, smooth bodies the map decides near the terminator.
+///   wholly dark. Smooth bodies: see ShadowCasterGroup::setTerminatorOffset().
 /// - An edge is off by a fraction of a texel, see ShadowMapOptions::Filter.
 /// - An object loses its shadow if it is less than about a texel off the receiver, measured along the light.
 /// - A wall thinner than about two texels may let single pixels of light through where it stands on the floor.

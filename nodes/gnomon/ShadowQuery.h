@@ -42,7 +42,8 @@ struct ShadowProbe;
 /// - It has no view: the most detailed children of an LOD cast.
 /// - Casters that draw themselves, or are made of patches, are not asked.
 /// - If the technique names a receiver, its answers hold for points on that receiver only.
-/// - Points on a surface that the light grazes (sine 0.01 or less) may get either answer.
+/// - Points on a surface that the light grazes (sine 0.01 or less) may get either answer. Those at the terminator of a smooth
+///   body get that of its facets: see ShadowCasterGroup::setTerminatorOffset().
 /// Threads
 /// - Any number may ask one query.
 class GNOMON_EXPORT ShadowQuery {

@@ -28,9 +28,10 @@ struct ShadowSpec {
     std::string technique = "none";                        ///< One of shadowTechniques().
     std::optional<ShadowCasterGroup::Composite> composite; ///< Default: that of a fresh ShadowCasterGroup.
     std::optional<float> dark;                             ///< See ShadowCasterGroup::setDark(). Default: the group's.
-    ShadowMapOptions map;                                  ///< Settings of map.
-    ShadowVolumeOptions volume;                            ///< Settings of volume.
-    AutoShadowOptions budget;                              ///< Settings of auto.
+    std::optional<bool> terminatorOffset; ///< See ShadowCasterGroup::setTerminatorOffset(). Default: the group's.
+    ShadowMapOptions map;                 ///< Settings of map.
+    ShadowVolumeOptions volume;           ///< Settings of volume.
+    AutoShadowOptions budget;             ///< Settings of auto.
     /// Name of the nodes that receive, all of that name. Default, empty: everything for map, volume, traced and auto, else the node named "ground".
     std::string receiver;
 };

@@ -30,7 +30,7 @@ class VolumeCache;
 /// - Dense meshes have thousands of edges one before the other: maps are faster there.
 /// - A single sheet seen from behind is lit as OpenGL lights it: it does not shadow itself.
 /// - Single pixels of a seam may stay lit where the dark side of an open sheet meets the ground, as at a cliff's foot.
-/// - Facets decide what faces the light, not smoothed normals. Coarse models show them near the terminator.
+/// - Facets decide what faces the light. Smooth bodies: see ShadowCasterGroup::setTerminatorOffset().
 /// - Casters that are clear in part cast as if they were solid, and diagnose() says so.
 /// - Casters that draw themselves, or are made of patches, cast nothing. diagnose() says so.
 /// - Counts have up to seven bits. More casters between a light and a place take several rounds. If one connected mesh

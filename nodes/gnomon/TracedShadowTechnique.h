@@ -34,7 +34,7 @@ class TracedFrames;
 /// Limits
 /// - One sample a pixel: edges are hard.
 /// - A single sheet seen from behind is lit as OpenGL lights it: it does not shadow itself.
-/// - Facets decide what faces the light, not smoothed normals. Coarse models show them near the terminator.
+/// - Facets decide what faces the light. Smooth bodies: see ShadowCasterGroup::setTerminatorOffset().
 /// - Casters that are clear in part cast as if they were solid, and diagnose() says so.
 /// - Casters that draw themselves, or are made of patches, cast nothing. diagnose() says so.
 /// - Casters are kept as floats about the place where most triangles are. Others at 100 km are right to a centimetre.

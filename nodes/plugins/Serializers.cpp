@@ -27,17 +27,17 @@ using namespace gnomon;
 //
 // In binary files each object of the kit begins with a mark and a version. OSG's own header cannot tell it, because the
 // programs that write files do not know the kit. Text files name their properties and need no version. A property that
-// is added belongs into a new version, here 5, and `fileVersion` becomes 5:
+// is added belongs into a new version, here 6, and `fileVersion` becomes 6:
 //
 //     {
-//         UPDATE_TO_VERSION_SCOPED(5)
+//         UPDATE_TO_VERSION_SCOPED(6)
 //         ADD_BOOL_SERIALIZER(Tint, fresh->getTint());
 //     }
 namespace {
 
 /// OSG's word for the library that a version belongs to.
 constexpr const char* fileDomain = "gnomon";
-constexpr int fileVersion = 4;                ///< The version that is written.
+constexpr int fileVersion = 5;                ///< The version that is written.
 constexpr int firstVersion = 3;               ///< The oldest that is read.
 constexpr char mark[] = {'g', 'n', 'm', 'n'}; // files without it have switches, enumerators or numbers here
 
@@ -214,6 +214,10 @@ GNOMON_WRAPPER(ShadowCasterGroup, newGroup(), "osg::Object osg::Node osg::Group"
         UPDATE_TO_VERSION_SCOPED(4)
         fields::addEnum(*wrapper, "Clipping", &MyClass::getClipping, &MyClass::setClipping,
                         {{"GRAPH", MyClass::GRAPH}, {"ALL", MyClass::ALL}, {"NONE", MyClass::NONE}});
+    }
+    {
+        UPDATE_TO_VERSION_SCOPED(5)
+        ADD_BOOL_SERIALIZER(TerminatorOffset, true);
     }
 }
 

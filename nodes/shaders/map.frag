@@ -97,10 +97,10 @@ Compared compared(int i, vec4 held, vec4 error, Axes axes, Lie lie, float drawn)
     vec2 slope = isEdgeOn ? vec2(0.0) : -change.xy / (deeper * size);
     vec2 outwards = isEdgeOn && lie.facing ? change.xy / max(length(change.xy), 1e-37) : vec2(0.0);
     vec2 beside = outwards * (abs(outwards.x) + abs(outwards.y));
-    // Its plane goes deeper there, and by a texel less where four are compared.
-    const float inwards = 2.0, spare = 0.5 * (inwards - 1.0);
+    // At the depth of the pixel itself: of a body with offsets, the surface there is farther from the light, see mark.vert.
+    const float inwards = 2.0;
     vec2 at = place(i).xy + inMap.xy * place(i).z;
-    vec3 inner = vec3(at - inwards * change.xy / max(length(change.xy), 1e-37), depth + spare * length(own) - error.x - off);
+    vec3 inner = vec3(at - inwards * change.xy / max(length(change.xy), 1e-37), depth - error.x - off);
     return Compared(at + beside, slope, depth - within, inner);
 }
 

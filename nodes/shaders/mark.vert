@@ -12,6 +12,10 @@ uniform vec4 light; // homogeneous; a vertex's w says how far it goes on away fr
 uniform float endless; // how far that is; below 0 to infinity
 #endif
 
+#ifdef OFFSET
+uniform vec4 light; // homogeneous
+#endif
+
 #ifdef CLIP_NEAR
 uniform float nearest; // what a lamp has nearer than this along the axis casts nothing
 #endif
@@ -26,6 +30,12 @@ void main() {
     float length = gl_Vertex.w < 0.0 ? endless : gl_Vertex.w;
     vec4 place = length < 0.0 ? vec4(away, 0.0) : vec4(gl_Vertex.xyz + length * away, 1.0);
     gl_Position = clipFromVertex * place;
+#elif defined(OFFSET)
+    // As terminatorOffset(), but twice as far: a map compares by texels, and what is turned away two texels further in.
+    vec3 towards = light.xyz - light.w * gl_Vertex.xyz;
+    towards /= max(length(towards), 1e-30);
+    float grazed = clamp(2.5 - 2.0 * abs(dot(gl_MultiTexCoord0.xyz, towards)), 0.0, 1.0);
+    gl_Position = clipFromVertex * vec4(gl_Vertex.xyz - 2.0 * gl_MultiTexCoord0.w * grazed * towards, 1.0);
 #else
     gl_Position = clipFromVertex * gl_Vertex;
 #endif

@@ -7,6 +7,7 @@
 #include <functional>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -20,6 +21,9 @@ struct TriangleSoup {
     const unsigned* indices = nullptr;   ///< Three a triangle.
     std::size_t indexCount = 0;          ///< Number of indices.
     glm::dvec3 origin{0.0};              ///< Frame of the rays. Choose it near the triangles' middle, for precision.
+    /// How far each vertex moves away from a light before it blocks it, as many as vertices: see terminatorOffsets().
+    /// Null: not at all. For Ray::toLight.
+    const glm::vec4* terminatorOffsets = nullptr;
     /// True if a triangle is solid at a point. Rays pass through other points. Default, empty: all is solid.
     /// `triangle` counts the given triangles; `u` and `v` are the barycentric weights of the second and third corner.
     /// The scene keeps the function, and calls it from any thread that casts rays.
@@ -31,6 +35,7 @@ struct Ray {
     glm::dvec3 start;                                       ///< Start point.
     glm::dvec3 along;                                       ///< Direction, any length but 0.
     double reach = std::numeric_limits<double>::infinity(); ///< End of the ray, in lengths of `along`.
+    bool toLight = false; ///< blocked() lets it pass where TriangleSoup::terminatorOffsets say so.
 };
 
 /// The first triangle on a ray.

@@ -36,7 +36,8 @@ public:
 std::unique_ptr<SilhouetteMesh> meshOf(const std::vector<glm::vec3>& places) {
     std::vector<unsigned> corners;
     for (unsigned i = 0; i < places.size(); ++i) corners.push_back(i);
-    return std::make_unique<SilhouetteMesh>(places.data(), places.size(), corners.data(), corners.size());
+    return std::make_unique<SilhouetteMesh>(
+        SilhouetteMesh::Source{places.data(), places.size(), corners.data(), corners.size()});
 }
 
 const SilhouetteMesh& bunny() {
@@ -98,7 +99,7 @@ void ballOnOneCore(benchmark::State& state) {
 void edgesOfTheBunny(benchmark::State& state) {
     std::vector<unsigned> corners = bunny().corners;
     for (auto _ : state) {
-        const SilhouetteMesh mesh(bunny().vertices.data(), bunny().vertices.size(), corners.data(), corners.size());
+        const SilhouetteMesh mesh({bunny().vertices.data(), bunny().vertices.size(), corners.data(), corners.size()});
         benchmark::DoNotOptimize(mesh.edges.data());
     }
 }

@@ -144,6 +144,7 @@ osg::ref_ptr<osg::Group> everySetting() {
     group->setDark(half);
     group->setOpaqueFrom(third);
     group->setClipping(ShadowCasterGroup::NONE);
+    group->setTerminatorOffset(false);
     group->setLightSources({sun, lamp});
     group->setLights(
         {{1, delicate[0]}, {2, delicate[1], {0.1, -1.0 / 3.0, 4234567.123456789}, 100.0 / 3.0}, {7, delicate[2]}});
@@ -464,19 +465,21 @@ TEST(BinaryFile, OfTheVersionBeforeHasDefaultsForWhatCameLater) {
     const osg::ref_ptr<ShadowCasterGroup> group = new ShadowCasterGroup;
     group->setDark(third);
     group->setClipping(ShadowCasterGroup::ALL);
+    group->setTerminatorOffset(false);
     std::string file = test::written(*group, "osgb");
     file[file.find("gnmn") + 4] = 3;
     const auto loaded = test::loadedAs<ShadowCasterGroup>(file, "osgb");
     ASSERT_TRUE(loaded);
     EXPECT_EQ(loaded->getDark(), third);
     EXPECT_EQ(loaded->getClipping(), ShadowCasterGroup::GRAPH);
+    EXPECT_TRUE(loaded->getTerminatorOffset());
 }
 
 TEST(BinaryFile, OfAnotherVersionIsRefusedWithTheReason) {
     test::usePluginsOfThisBuild();
     std::string file = test::written(*osg::ref_ptr<osg::Node>(new ShadowCasterGroup), "osgb");
     const std::size_t version = file.find("gnmn") + 4;
-    ASSERT_EQ(file.substr(version, 4), std::string("\4\0\0\0", 4));
+    ASSERT_EQ(file.substr(version, 4), std::string("\5\0\0\0", 4));
     EXPECT_TRUE(test::loaded(file, "osgb"));
     const auto why = [&](char number) {
         file[version] = number;

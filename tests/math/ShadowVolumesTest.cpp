@@ -2,6 +2,7 @@
 // Volumes behind meshes: how many hold a point is how many triangles are between it and the light.
 #include <support/Soup.h>
 
+#include <gnomon/geometry/TerminatorOffset.h>
 #include <gnomon/silhouette/ShadowVolumes.h>
 
 #include <glm/geometric.hpp>
@@ -27,7 +28,7 @@ Soup box(const glm::dvec3& low, const glm::dvec3& high) {
 }
 
 SilhouetteMesh edgesOf(const Soup& soup) {
-    return {soup.vertices.data(), soup.vertices.size(), soup.indices.data(), soup.indices.size()};
+    return SilhouetteMesh({soup.vertices.data(), soup.vertices.size(), soup.indices.data(), soup.indices.size()});
 }
 
 glm::dvec3 drawn(const glm::vec4& vertex, const glm::dvec4& light) {
@@ -138,6 +139,60 @@ TEST(ShadowVolumes, HoldAPointAsOftenAsTrianglesAreBetweenItAndTheLight) {
             }
             EXPECT_GT(held, 2) << given.name;
         }
+}
+
+/// The triangles of a ball of smooth normals that the light sees, each where it casts.
+Soup moved(const Soup& ball, const std::vector<glm::vec4>& offsets, const glm::dvec4& light) {
+    Soup result;
+    for (std::size_t i = 0; i < ball.size(); ++i) {
+        glm::dvec3 at[3];
+        for (int k = 0; k < 3; ++k) at[k] = ball.corner(i, k);
+        const glm::dvec3 normal = glm::cross(at[1] - at[0], at[2] - at[0]);
+        if (!(glm::dot(normal, gnomon::awayFrom(light, at[0])) < 0.0)) continue;
+        for (int k = 0; k < 3; ++k) {
+            const glm::dvec3 away = glm::normalize(gnomon::awayFrom(light, at[k]));
+            at[k] += gnomon::terminatorOffset(offsets[ball.indices[3 * i + k]], -away) * away;
+        }
+        result.triangle(at[0], at[1], at[2]);
+    }
+    return result;
+}
+
+TEST(ShadowVolumes, BeginWhereSmoothBodiesCast) {
+    const auto planes = gnomon::endPlanes({-3.0, -3.0, -1.0}, {3.0, 3.0, 4.0});
+    const glm::dvec3 centre(0.0, 0.0, 2.0);
+    Soup ball;
+    ball.sphere(centre, 1.0, 24);
+    std::vector<glm::dvec3> places(ball.vertices.begin(), ball.vertices.end());
+    std::vector<glm::vec3> normals;
+    for (const glm::dvec3& place : places) normals.emplace_back(place - centre);
+    const std::vector<glm::vec4> offsets = gnomon::terminatorOffsets(places, normals, ball.indices);
+    ASSERT_EQ(offsets.size(), places.size());
+    const SilhouetteMesh mesh({ball.vertices.data(), ball.vertices.size(), ball.indices.data(), ball.indices.size(),
+                               nullptr, offsets.data()});
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> share(0.96, 1.01); // just within and without, where facets are behind others
+    for (const glm::dvec4& light : lights()) {
+        ShadowVolumes volumes;
+        gnomon::findShadowVolumes(mesh, light, planes, volumes);
+        gnomon::VolumeCaps caps, rim;
+        gnomon::appendLightCap(mesh, volumes, 0, caps);
+        gnomon::appendDarkCap(mesh, volumes, 0, caps);
+        gnomon::appendRim(mesh, volumes, 0, rim);
+        EXPECT_GT(rim.corners.size(), 0u);
+        EXPECT_LT(rim.corners.size(), caps.corners.size() / 2);
+        const Soup there = moved(ball, offsets, light);
+        int before = 0;
+        for (int i = 0; i < 400; ++i) {
+            const glm::dvec3 point = centre + share(random) * test::randomDirection(random);
+            const double count = winding(volumes.vertices, volumes.corners, light, point) +
+                                 winding(caps.vertices, caps.corners, light, point);
+            const int hidden = between(there, point, light);
+            EXPECT_NEAR(count, hidden, 1e-3);
+            before += hidden == 0 && between(ball, point, light) > 0;
+        }
+        EXPECT_GT(before, 10) << "points that the ball would shadow from where it is";
+    }
 }
 
 TEST(ShadowVolumes, OfABoxHaveTheSixSidesOfItsOutline) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/Convert.h>
 #include <gnomon/VertexTraverser.h>
 #include <gnomon/casters/CasterExtraction.h>
 #include <gnomon/casters/DrawableTriangles.h>
+#include <gnomon/geometry/TerminatorOffset.h>
 
 #include <osg/Geometry>
 
@@ -36,6 +38,9 @@ public:
         if (casting.test) _clear.emplace(*casting.test, drawable);
         _keepsCoordinates = casting.test && casting.test->isSampled();
         _mixed = casting.selfDrawn;
+        if (!casting.offsetsTerminator || casting.test || casting.selfDrawn) return;
+        _normals = normalsOf(drawable);
+        if (!_normals.empty()) _localFromRoot = osg::Matrixd::inverse(rootFromLocal);
     }
 
     /// Half a step of a float of the size of the largest coordinates, carried to the root's frame.
@@ -48,6 +53,8 @@ public:
 
     bool isMixed() const { return _mixed; }
     std::vector<osg::Vec3>& coordinates() { return _coordinates; }
+    /// One for each vertex that was added, root frame; none if the drawable has none.
+    const std::vector<glm::vec3>& normals() const { return _normalsInRoot; }
 
 protected:
     void start(unsigned count) override {
@@ -92,7 +99,15 @@ private:
         if (!isUsable(inRoots)) return nowhere;
         if (isOfFloats())
             _reach = larger(_reach, absolute(place) * (weight(index) == 1.0 ? 1.0 : 2.0)); // w is rounded as well
+        if (!_normals.empty())
+            _normalsInRoot.push_back(index < _normals.size() ? normalInRoot(_normals[index]) : glm::vec3(0.0f));
         return add(inRoots, _keepsCoordinates ? _clear->coordinates()[index] : osg::Vec3());
+    }
+
+    glm::vec3 normalInRoot(const osg::Vec4& local) const {
+        const osg::Vec3d turned =
+            osg::Matrixd::transform3x3(_localFromRoot, osg::Vec3d(local.x(), local.y(), local.z()));
+        return glm::vec3(turned.x(), turned.y(), turned.z());
     }
 
     unsigned add(const osg::Vec3d& inRoots, const osg::Vec3& coordinate) {
@@ -134,6 +149,10 @@ private:
         const auto of = [this](unsigned at) { return osg::Vec3d(_coordinates[at - _firstVertex]); };
         osg::Vec3d coordinate;
         if (_keepsCoordinates) coordinate = of(from) + (of(to) - of(from)) * share;
+        if (!_normals.empty()) {
+            const glm::vec3 first = _normalsInRoot[from - _firstVertex], last = _normalsInRoot[to - _firstVertex];
+            _normalsInRoot.push_back(first + (last - first) * static_cast<float>(share));
+        }
         return add(a + (b - a) * share, osg::Vec3(coordinate));
     }
 
@@ -144,7 +163,10 @@ private:
     bool _keepsCoordinates = false, _mixed = false;
     const unsigned _firstVertex = static_cast<unsigned>(_result._vertices.size());
     std::vector<osg::Vec3> _coordinates; ///< of the vertices that were added.
-    osg::Vec3d _reach;                   ///< largest size of each coordinate of the float vertices used.
+    std::vector<osg::Vec4> _normals;     ///< of the drawable; none if nobody needs them.
+    std::vector<glm::vec3> _normalsInRoot;
+    osg::Matrixd _localFromRoot;
+    osg::Vec3d _reach; ///< largest size of each coordinate of the float vertices used.
 };
 
 CasterExtraction::CasterExtraction(const Selection& selection) : CasterVisitor(selection) {}
@@ -153,6 +175,7 @@ void CasterExtraction::reset() {
     CasterVisitor::reset();
     _vertices.clear();
     _triangles.clear();
+    _offsets.clear();
     _sources.clear();
     _drawn.clear();
     _cutouts.clear();
@@ -173,6 +196,8 @@ void CasterExtraction::applyCaster(osg::Drawable& drawable, const Casting& casti
     Collector collector(*this, rootFromLocal(), drawable, casting);
     readTriangles(drawable, collector);
     _rounding = std::max(_rounding, collector.rounding());
+    if (!collector.normals().empty()) addOffsets(collector, firstVertex, firstCorner);
+    if (!_offsets.empty()) _offsets.resize(_vertices.size());
     if (invalidBefore == 0 && _invalidTriangles > 0) _invalidNode = nameHere(drawable);
     holdSources(drawable, _sources);
     casting.hold(drawable, _sources);
@@ -183,10 +208,25 @@ void CasterExtraction::applyCaster(osg::Drawable& drawable, const Casting& casti
                         std::move(collector.coordinates())});
 }
 
+void CasterExtraction::addOffsets(const Collector& of, std::size_t firstVertex, std::size_t firstCorner) {
+    std::vector<glm::dvec3> positions;
+    positions.reserve(of.normals().size());
+    for (std::size_t i = firstVertex; i < _vertices.size(); ++i) positions.push_back(toGlm(_vertices[i]));
+    std::vector<unsigned> corners(_triangles.begin() + static_cast<std::ptrdiff_t>(firstCorner), _triangles.end());
+    for (unsigned& corner : corners) corner -= static_cast<unsigned>(firstVertex);
+    const std::vector<glm::vec4> offsets = terminatorOffsets(positions, of.normals(), corners);
+    if (offsets.empty()) return;
+    _offsets.resize(firstVertex);
+    _offsets.insert(_offsets.end(), offsets.begin(), offsets.end());
+}
+
 void CasterExtraction::append(const CasterExtraction& other) {
     const auto firstVertex = static_cast<unsigned>(_vertices.size());
     const std::size_t firstCorner = _triangles.size(), firstDrawn = _drawn.size();
     _vertices.insert(_vertices.end(), other._vertices.begin(), other._vertices.end());
+    if (!other._offsets.empty()) _offsets.resize(firstVertex);
+    _offsets.insert(_offsets.end(), other._offsets.begin(), other._offsets.end());
+    if (!_offsets.empty()) _offsets.resize(_vertices.size());
     for (const unsigned index : other._triangles) _triangles.push_back(index + firstVertex);
     for (const Drawn& drawn : other._drawn) _drawn.push_back({drawn.drawable, drawn.first + firstCorner, drawn.hiding});
     if (_cutouts.empty()) _cutoutNode = other._cutoutNode;
@@ -207,6 +247,7 @@ void CasterExtraction::trim() {
     _slots = {};
     _vertices.shrink_to_fit();
     _triangles.shrink_to_fit();
+    _offsets.shrink_to_fit();
 }
 
 std::string CasterExtraction::nameHere(const osg::Drawable& drawable) const {

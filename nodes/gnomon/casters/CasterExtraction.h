@@ -2,6 +2,7 @@
 #pragma once
 #include <gnomon/casters/CasterVisitor.h>
 
+#include <glm/vec4.hpp>
 #include <osg/Referenced>
 #include <osg/Vec3>
 #include <osg/Vec3d>
@@ -41,6 +42,8 @@ public:
         std::size_t first;             ///< Index of its first corner in getTriangles().
         Hiding hiding;                 ///< What it hides.
     };
+    /// See terminatorOffsets(): as many as vertices; none if there are none at all.
+    const std::vector<glm::vec4>& getOffsets() const { return _offsets; }
     /// The drawables, in traversal order.
     const std::vector<Drawn>& getDrawn() const { return _drawn; }
 
@@ -75,6 +78,7 @@ protected:
 
 private:
     class Collector;
+    void addOffsets(const Collector& of, std::size_t firstVertex, std::size_t firstCorner);
     /// Where a vertex of the current array went: its place in _vertices, if `array` is the current one's number.
     struct Slot {
         unsigned array = 0;
@@ -84,6 +88,7 @@ private:
 
     std::vector<osg::Vec3d> _vertices;
     std::vector<unsigned> _triangles;
+    std::vector<glm::vec4> _offsets;
     std::vector<osg::ref_ptr<const osg::Referenced>> _sources;
     std::vector<Drawn> _drawn;
     std::vector<Cutout> _cutouts;

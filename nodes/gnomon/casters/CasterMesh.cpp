@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/Convert.h>
 #include <gnomon/casters/CasterMesh.h>
 
 #include <OpenThreads/ScopedLock>
@@ -74,6 +75,10 @@ CasterMesh::CasterMesh(const CasterExtraction& casters, const std::optional<osg:
     // Attached here, for the first geometry to use the array would do so, perhaps in one of several threads.
     vertices->setVertexBufferObject(new osg::VertexBufferObject);
     triangles->setElementBufferObject(new osg::ElementBufferObject);
+    if (!casters.getOffsets().empty()) {
+        offsets = new osg::Vec4Array;
+        offsets->setVertexBufferObject(new osg::VertexBufferObject);
+    }
     if (about || bounds.valid()) origin = about ? *about : originOf(casters, bounds);
     std::vector<unsigned> places(casters.getVertices().size(), nowhere);
     triangles->reserve(casters.getTriangles().size());
@@ -81,6 +86,7 @@ CasterMesh::CasterMesh(const CasterExtraction& casters, const std::optional<osg:
         if (places[index] == nowhere) {
             places[index] = static_cast<unsigned>(vertices->size());
             vertices->push_back(osg::Vec3(casters.getVertices()[index] - origin));
+            if (offsets) offsets->push_back(toOsg(casters.getOffsets()[index]));
         }
         triangles->push_back(places[index]);
     }
@@ -109,6 +115,7 @@ osg::ref_ptr<osg::Geometry> casterGeometry(const CasterMesh& mesh, osg::DrawElem
     geometry->setUseDisplayList(false);
     geometry->setUseVertexBufferObjects(true);
     geometry->setVertexArray(mesh.vertices.get());
+    if (mesh.offsets) geometry->setTexCoordArray(0, mesh.offsets.get(), osg::Array::BIND_PER_VERTEX);
     geometry->addPrimitiveSet(triangles);
     return geometry;
 }

@@ -28,7 +28,7 @@ namespace gnomon {
 /// CasterLayers has all meshes of a group, and where they are. Use Casters to treat each drawable apart.
 ///
 /// Cost
-/// - 12 bytes a triangle, and 12 bytes a vertex that a triangle uses; and what is derived.
+/// - 12 bytes a triangle, and 12 bytes a vertex that a triangle uses, 16 more where anything is smooth; and what is derived.
 /// Limits
 /// - VertexTraverser lists what is left out.
 /// Threads
@@ -45,6 +45,8 @@ public:
     osg::Vec3d origin;                             ///< Frame of the extraction. The vertices are relative to it.
     osg::ref_ptr<osg::Vec3Array> vertices;         ///< Relative to `origin`. All are finite and used by a triangle.
     osg::ref_ptr<osg::DrawElementsUInt> triangles; ///< Three indices a triangle; see CasterExtraction::getTriangles().
+    osg::ref_ptr<osg::Vec4Array>
+        offsets;              ///< See terminatorOffsets(), one a vertex. Null if all cast from where they are.
     osg::BoundingBoxd bounds; ///< Bounds of the triangles, frame of the extraction. Invalid without triangles.
     double rounding = 0.0;    ///< Largest error of a vertex by its float source.
     std::vector<CasterExtraction::Drawn> drawn;    ///< Drawables of the triangles. `first` indexes `triangles`.
@@ -90,8 +92,14 @@ inline const glm::vec3* positionsOf(const CasterMesh& mesh) {
     static_assert(sizeof(glm::vec3) == sizeof(osg::Vec3));
     return static_cast<const glm::vec3*>(mesh.vertices->getDataPointer());
 }
+/// Its offsets; null if there are none.
+inline const glm::vec4* offsetsOf(const CasterMesh& mesh) {
+    static_assert(sizeof(glm::vec4) == sizeof(osg::Vec4));
+    return mesh.offsets ? static_cast<const glm::vec4*>(mesh.offsets->getDataPointer()) : nullptr;
+}
 
-/// Makes a drawable of some triangles of a mesh. It has positions only, and shares the mesh's buffers.
+/// Makes a drawable of some triangles of a mesh. It has positions, and offsets as texture coordinates of unit 0, and shares
+/// the mesh's buffers.
 osg::ref_ptr<osg::Geometry> casterGeometry(const CasterMesh& mesh, osg::DrawElementsUInt* triangles);
 
 /// A mesh of casters at a place. Scene: the group's axes about the origin of its CasterLayers.

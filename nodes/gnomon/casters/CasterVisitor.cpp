@@ -67,11 +67,12 @@ osg::Vec3d row(const osg::Matrixd& matrix, int i) { return {matrix(i, 0), matrix
 /// Two counts of 32 bits as one word.
 std::uint64_t word(unsigned high, unsigned low) { return std::uint64_t{high} << 32 | low; }
 
-void mixGeometry(const osg::Geometry& geometry, const osg::Array* vertices, Fingerprint& into) {
-    into.mix(static_cast<const void*>(vertices));
-    if (vertices) {
-        into.mix(word(vertices->getModifiedCount(), vertices->getNumElements()));
-        into.mix(std::uint64_t{vertices->getNormalize()});
+void mixGeometry(const osg::Geometry& geometry, Fingerprint& into) {
+    for (const osg::Array* array : {verticesOf(geometry), geometry.getNormalArray()}) {
+        into.mix(static_cast<const void*>(array));
+        if (!array) continue;
+        into.mix(word(array->getModifiedCount(), array->getNumElements()));
+        into.mix(word(array->getNormalize(), static_cast<unsigned>(array->getBinding())));
     }
     into.mix(std::uint64_t{geometry.getNumPrimitiveSets()});
     for (const auto& primitives : geometry.getPrimitiveSetList()) {
@@ -221,7 +222,7 @@ bool CasterVisitor::mayMatterAbove() {
 }
 
 Casting CasterVisitor::castingOf(const osg::Drawable& drawable) {
-    if (_exceptions == 0 && !mayMatterAbove()) return {};
+    if (_exceptions == 0 && !mayMatterAbove()) return _judge.plain();
     return _judge.of(getNodePath(), drawable, rootFromLocal(), _planes);
 }
 
@@ -381,6 +382,7 @@ void CasterVisitor::holdSources(const osg::Drawable& drawable,
                                 std::vector<osg::ref_ptr<const osg::Referenced>>& sources) {
     if (const osg::Geometry* geometry = drawable.asGeometry()) {
         sources.emplace_back(verticesOf(*geometry));
+        sources.emplace_back(geometry->getNormalArray());
         for (const auto& primitives : geometry->getPrimitiveSetList()) {
             sources.emplace_back(primitives);
             if (const osg::BufferData* commands = indirectCommands(*primitives)) sources.emplace_back(commands);
@@ -419,7 +421,7 @@ std::uint64_t CasterFingerprint::ofGeometry(const osg::Drawable& drawable, const
     result.mix(contents);
     mixBounds(drawable, result);
     if (const osg::Geometry* geometry = drawable.asGeometry())
-        mixGeometry(*geometry, verticesOf(*geometry), result);
+        mixGeometry(*geometry, result);
     else
         result.mix(static_cast<const void*>(&drawable));
     casting.mix(drawable, result);

@@ -326,11 +326,17 @@ osg::Vec4d placedPlane(const osg::Matrixd& inverse, const osg::Vec4d& plane) { r
 
 } // namespace
 
+Casting CastingJudge::plain() const {
+    Casting result;
+    result.offsetsTerminator = _rule && _rule->offsetsTerminator;
+    return result;
+}
+
 Casting CastingJudge::of(const osg::NodePath& path, const osg::Drawable& drawable, const osg::Matrixd& rootFromLocal,
                          const std::vector<NumberedPlane>& planes) {
     const PathState state(path);
     const Resolved& found = resolved(state);
-    Casting result;
+    Casting result = plain();
     result.restart = found.restart;
     if (!_rule) return result;
     result.casts = !found.nothing;
@@ -385,6 +391,7 @@ Casting CastingJudge::of(const osg::NodePath& path, const osg::Drawable& drawabl
 void Casting::mix(const osg::Drawable& drawable, Fingerprint& into) const {
     if (restart) into.mix(std::uint64_t{*restart} << 1 | 1);
     if (byPixel) into.mix(double{-1.0});
+    if (offsetsTerminator) into.mix(double{-2.0});
     if (selfDrawn) into.mix(double{1.0f + opaqueFrom});
     for (const auto& [number, plane] : clips) {
         into.mix(std::uint64_t{number});

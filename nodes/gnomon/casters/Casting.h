@@ -183,6 +183,7 @@ struct CastingRule {
         All,
         None
     } clips = OfGraph;
+    bool offsetsTerminator = true; ///< See Casting::offsetsTerminator.
 };
 
 /// A clip plane by OpenGL's number. Kept is what has no negative distance from it.
@@ -211,6 +212,8 @@ struct Casting {
     std::optional<AlphaTest> test; ///< Which parts are clear. nullopt: none, or selfDrawn.
     std::vector<NumberedPlane> clips; ///< Planes that cut it, root frame.
     std::optional<unsigned> restart;  ///< Index that ends a primitive; ~0u: the largest of the list's type.
+    bool offsetsTerminator =
+        false; ///< What is smooth casts from farther on at its terminator: see terminatorOffsets().
 
     /// True if it casts by all its triangles, though some may be clear in part.
     bool isWhole() const { return casts && !test && clips.empty(); }
@@ -225,12 +228,14 @@ struct Casting {
 /// Finds the casting of drawables during one visit of a graph, in which no state changes.
 class CastingJudge {
 public:
-    /// Without a rule, all cast whole: what is wanted is what there is.
+    /// Without a rule, all cast whole, from where they are: what is wanted is what there is.
     void setRule(const std::optional<CastingRule>& rule) { _rule = rule; }
     /// True if planes in the eye's frame cut.
     bool cutsByViews() const { return _rule && _rule->clips == CastingRule::All; }
     /// True if a state set may keep part of what is below it from casting, or from being read as it is.
     bool mayMatter(const osg::StateSet& set);
+    /// Of what no state matters to.
+    Casting plain() const;
     /// The casting of the drawable at the end of a path, by the states along it and above it (by first parents).
     /// @param planes  clip planes where they lie in the root's frame; of two with one number the last one counts.
     Casting of(const osg::NodePath& path, const osg::Drawable& drawable, const osg::Matrixd& rootFromLocal,

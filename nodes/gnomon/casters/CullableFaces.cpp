@@ -58,7 +58,8 @@ ClosedParts closedPartsOf(const CasterMesh& mesh, const osg::DrawElementsUInt& t
     return closedParts(positionsOf(mesh), mesh.vertices->size(), &triangles.front(), triangles.size(), true);
 }
 
-CullableFaces::CullableFaces(const CasterMesh& mesh, osg::DrawElementsUInt* triangles, bool findSolids) {
+CullableFaces::CullableFaces(const CasterMesh& mesh, osg::DrawElementsUInt* triangles, bool findSolids)
+    : smooth(mesh.offsets.valid()) {
     if (!findSolids) {
         others = casterGeometry(mesh, triangles);
         return;

@@ -51,7 +51,8 @@ std::uint64_t contentsOf(const osg::Drawable& drawable, bool all) {
     osg::Geometry::ArrayList arrays;
     if (all) geometry->getArrayList(arrays);
     for (const auto& array : arrays) mixData(array, found);
-    if (!all) mixData(verticesOf(*geometry), found);
+    if (!all)
+        for (const osg::Array* array : {verticesOf(*geometry), geometry->getNormalArray()}) mixData(array, found);
     for (const auto& primitives : geometry->getPrimitiveSetList()) {
         mixData(primitives, found);
         mixData(indirectCommands(*primitives), found);

@@ -14,7 +14,7 @@ enum class Follows {
 };
 Follows followsOf(const osg::Drawable& drawable);
 
-/// Stands for what a drawable is drawn from: vertices and indices.
+/// Stands for what a drawable is drawn from: vertices, normals and indices.
 /// @param all  arrays count, colours and coordinates as well.
 ///
 /// Cost  an instruction a byte of a geometry. Of what is no geometry, all that its PrimitiveFunctor does.

@@ -6,11 +6,13 @@
 #include <osg/Matrixd>
 #include <osg/PrimitiveSet>
 #include <osg/Vec3d>
+#include <osg/Vec4>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <vector>
 
 namespace gnomon {
 
@@ -177,6 +179,9 @@ void readTriangles(const osg::Drawable& drawable, TriangleDecoder& into);
 
 /// The vertices that OpenSceneGraph's functors take of a geometry; null if it has none.
 const osg::Array* verticesOf(const osg::Geometry& geometry);
+
+/// A geometry's normals, one a vertex, of any length, whatever their w; none if it has none, or one for several.
+std::vector<osg::Vec4> normalsOf(const osg::Drawable& drawable);
 
 /// True if OpenSceneGraph can hand out the drawable's triangles: not those of particles, for one.
 bool hasTriangles(const osg::Drawable& drawable);

@@ -23,19 +23,20 @@ constexpr std::size_t mostUnseen = 1000000; // triangles of levels that no view 
 /// Reads a drawable in its own frame, whole: see isBody().
 class BodyReader : public CasterExtraction {
 public:
-    std::optional<unsigned> restart;
+    explicit BodyReader(const Casting& casting) {
+        _casting.restart = casting.restart;
+        _casting.offsetsTerminator = casting.offsetsTerminator;
+    }
 
 protected:
-    Casting castingOf(const osg::Drawable&) override {
-        Casting casting;
-        casting.restart = restart;
-        return casting;
-    }
+    Casting castingOf(const osg::Drawable&) override { return _casting; }
+
+private:
+    Casting _casting;
 };
 
 osg::ref_ptr<const CasterMesh> extracted(const Caster& piece) {
-    const osg::ref_ptr<BodyReader> found = new BodyReader;
-    found->restart = piece.casting.restart;
+    const osg::ref_ptr<BodyReader> found = new BodyReader(piece.casting);
     const_cast<osg::Drawable&>(*piece.drawable).accept(*found); // which changes nothing
     return new CasterMesh(*found);
 }

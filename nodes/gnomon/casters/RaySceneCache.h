@@ -19,6 +19,7 @@ inline TriangleSoup soupOf(const CasterMesh& mesh) {
     soup.vertexCount = mesh.vertices->size();
     soup.indices = mesh.triangles->empty() ? nullptr : &mesh.triangles->front();
     soup.indexCount = mesh.triangles->size();
+    soup.terminatorOffsets = offsetsOf(mesh);
     return soup;
 }
 

@@ -27,7 +27,8 @@ CastingRule ruleOf(const ShadowCasterGroup& group) {
     const auto clips = group.getClipping() == ShadowCasterGroup::ALL    ? CastingRule::All
                        : group.getClipping() == ShadowCasterGroup::NONE ? CastingRule::None
                                                                         : CastingRule::OfGraph;
-    return from < 0.0f ? CastingRule{0.5f, 1.0f, clips} : CastingRule{from, from, clips};
+    const bool offset = group.getTerminatorOffset();
+    return from < 0.0f ? CastingRule{0.5f, 1.0f, clips, offset} : CastingRule{from, from, clips, offset};
 }
 
 /// Techniques that are off are met as well.
@@ -48,6 +49,7 @@ ShadowCasterGroup::ShadowCasterGroup(const ShadowCasterGroup& other, const osg::
       _casters(other._casters, other),
       _composite(other._composite),
       _clipping(other._clipping),
+      _terminatorOffset(other._terminatorOffset),
       _dark(other._dark),
       _opaqueFrom(other._opaqueFrom),
       _lights(other._lights),
@@ -91,6 +93,11 @@ void ShadowCasterGroup::setOpaqueFrom(float alpha) {
 
 void ShadowCasterGroup::setClipping(Clipping clipping) {
     _clipping = clipping == ALL || clipping == NONE ? clipping : GRAPH;
+    _table->setRule(ruleOf(*this));
+}
+
+void ShadowCasterGroup::setTerminatorOffset(bool offset) {
+    _terminatorOffset = offset;
     _table->setRule(ruleOf(*this));
 }
 

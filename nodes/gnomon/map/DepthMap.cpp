@@ -8,6 +8,7 @@
 #include <gnomon/map/DepthMap.h>
 
 #include <OpenThreads/ScopedLock>
+#include <glm/geometric.hpp>
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
@@ -111,6 +112,12 @@ void copyDepths(const osg::GLExtensions& gl, GLuint from, GLuint to, const std::
     glEnable(GL_SCISSOR_TEST);
 }
 
+/// Where the light of a map is, homogeneous, in the frame that its clip space is seen from; of a sun with length 1.
+glm::dvec4 lightOf(const glm::dmat4& clipFromFrame) {
+    const glm::dvec4 eye = eyeIn(clipFromFrame);
+    return eye.w != 0.0 ? eye / eye.w : glm::dvec4(glm::normalize(glm::dvec3(eye)), 0.0);
+}
+
 /// While a caster's own state is applied. OpenGL and osg::State are as before at its end.
 class SelfDrawnState {
 public:
@@ -189,13 +196,15 @@ public:
 private:
     std::string drawLayer(const MapPicture::Layer& layer, const Parts& parts) {
         if (parts.empty()) return "";
-        if (!layer.meshes.empty()) {
+        for (const bool smooth : {false, true}) {
+            const auto isMeant = [smooth](const MapPicture::Mesh& mesh) { return mesh.faces->smooth == smooth; };
+            if (std::none_of(layer.meshes.begin(), layer.meshes.end(), isMeant)) continue;
             const bool byLamp = parts.front().tile->nearest > 0.0;
-            _state.apply(byLamp ? _programs.casterByLamp : _programs.caster);
+            _state.apply(smooth ? _programs.smoothCaster : byLamp ? _programs.casterByLamp : _programs.caster);
             if (!hasProgram(_state)) return noProgram;
             for (const auto& part : parts) {
                 drawInto(part);
-                drawMeshes(layer, part.tile->clipFromScene());
+                drawMeshes(layer, smooth, part.tile->clipFromScene());
             }
         }
         if (layer.cutouts.empty()) return "";
@@ -213,11 +222,13 @@ private:
         return "";
     }
 
-    void drawMeshes(const MapPicture::Layer& layer, const glm::dmat4& clipFromScene) {
+    /// @param smooth  those that are, or the others.
+    void drawMeshes(const MapPicture::Layer& layer, bool smooth, const glm::dmat4& clipFromScene) {
         for (const MapPicture::Mesh& mesh : layer.meshes) {
-            if (!isInMap(mesh.box, clipFromScene)) continue;
+            if (mesh.faces->smooth != smooth || !isInMap(mesh.box, clipFromScene)) continue;
             const glm::dmat4 clipFromMesh = clipFromScene * mesh.sceneFromMesh;
             setUniform(_state, "clipFromVertex", clipFromMesh);
+            if (smooth) setUniform(_state, "light", lightOf(clipFromMesh));
             mesh.faces->draw(_renderInfo, clipFromMesh, mesh.outside);
         }
     }

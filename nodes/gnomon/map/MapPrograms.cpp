@@ -96,6 +96,7 @@ std::string MapConstants::defines(bool indexed) const {
 MapPrograms::MapPrograms()
     : caster(shaderProgram()), // for a clip distance costs a third more a vertex on llvmpipe
       casterByLamp(shaderProgram("#define CLIP_NEAR\n")),
+      smoothCaster(shaderProgram("#define CLIP_NEAR\n#define OFFSET\n")),
       cutout(shaderProgram("#define CLIP_NEAR\n#define CUTOUT\n")),
       blocks(quadProgram("gnomon blocks", "", shaders::blocks_frag)),
       cone(quadProgram("gnomon cone", "#define CONE\n#define SURROUND\n", shaders::cone_frag)) {}
@@ -110,14 +111,15 @@ osg::ref_ptr<const osg::StateSet> MapPrograms::program(const MapUse& use, const 
 }
 
 void MapPrograms::resizeGLObjectBuffers(unsigned maxSize) {
-    for (const auto& set : {caster, casterByLamp, cutout, blocks, cone}) set->resizeGLObjectBuffers(maxSize);
+    for (const auto& set : {caster, casterByLamp, smoothCaster, cutout, blocks, cone})
+        set->resizeGLObjectBuffers(maxSize);
     Lock lock(_mutex);
     for (const auto& [defines, set] : _programs) set->resizeGLObjectBuffers(maxSize);
 }
 
 void MapPrograms::release(osg::State* state) {
     seen.release(state);
-    for (const auto& set : {caster, casterByLamp, cutout, blocks, cone}) set->releaseGLObjects(state);
+    for (const auto& set : {caster, casterByLamp, smoothCaster, cutout, blocks, cone}) set->releaseGLObjects(state);
     Lock lock(_mutex);
     for (const auto& [defines, set] : _programs) set->releaseGLObjects(state);
 }

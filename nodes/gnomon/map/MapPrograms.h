@@ -55,8 +55,8 @@ private:
 /// with its other OpenGL objects.
 class MapPrograms : public osg::Referenced {
 public:
-    /// Casters, of a sun and of a lamp; those that a texture cuts out; see DepthMap::updateBlocks(); all but a spot's cone.
-    const osg::ref_ptr<osg::StateSet> caster, casterByLamp, cutout, blocks, cone;
+    /// Casters, of a sun and of a lamp; those with offsets, of either; those that a texture cuts out; see DepthMap::updateBlocks(); all but a spot's cone.
+    const osg::ref_ptr<osg::StateSet> caster, casterByLamp, smoothCaster, cutout, blocks, cone;
     FrameDepthCopy seen;
     std::atomic<unsigned> passes{0}; ///< maps drawn so far.
 

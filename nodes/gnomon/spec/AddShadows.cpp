@@ -107,16 +107,20 @@ const std::map<std::string, Maker>& makers() {
 
 bool blends(const ShadowSpec& spec) { return spec.composite == ShadowCasterGroup::BLEND; }
 
-void setComposite(ShadowCasterGroup& group, const std::vector<ShadowSpec>& specs) {
+/// What all share.
+void setGroup(ShadowCasterGroup& group, const std::vector<ShadowSpec>& specs) {
     for (const ShadowSpec& spec : specs) {
         if (blends(spec) != blends(specs.front()))
             refuse("composite=relight and composite=blend cannot be mixed. Give every shadow the same.");
         if (spec.dark && specs.front().dark != spec.dark)
             refuse("dark= differs between the shadows. Give every shadow the same.");
+        if (spec.terminatorOffset != specs.front().terminatorOffset)
+            refuse("terminator= differs between the shadows. Give every shadow the same.");
     }
     if (specs.empty()) return;
     group.setComposite(blends(specs.front()) ? ShadowCasterGroup::BLEND : ShadowCasterGroup::RELIGHT);
     if (specs.front().dark) group.setDark(*specs.front().dark);
+    if (specs.front().terminatorOffset) group.setTerminatorOffset(*specs.front().terminatorOffset);
 }
 
 Receivers requireReceivers(osg::Node& root, const std::string& name) {
@@ -159,7 +163,7 @@ std::vector<osg::ref_ptr<ShadowTechnique>> addShadows(ShadowCasterGroup& group, 
     Techniques made;
     for (const ShadowSpec& spec : specs)
         if (osg::ref_ptr<ShadowTechnique> node = makeTechnique(group, spec)) made.push_back(node);
-    setComposite(group, specs);
+    setGroup(group, specs);
     auto* scene = dynamic_cast<ShadowedScene*>(&group);
     if (scene && !specs.empty()) replaceShadow(*scene, made);
     for (const osg::ref_ptr<ShadowTechnique>& node : made)

@@ -40,6 +40,11 @@ Option<float> dark() {
     return {fresh->getDark(), [](ShadowSpec& spec, float value) { spec.dark = value; }};
 }
 
+Option<bool> terminatorOffset() {
+    const osg::ref_ptr<ShadowCasterGroup> fresh = new ShadowCasterGroup;
+    return {fresh->getTerminatorOffset(), [](ShadowSpec& spec, bool value) { spec.terminatorOffset = value; }};
+}
+
 template <typename Number>
 SpecKey numberKey(SpecKey key, const Option<Number>& option, Number least, Number most) {
     key.range = textOf(least) + " to " + textOf(most);
@@ -143,6 +148,9 @@ std::vector<SpecKey> sharedKeys(const std::string& receiver) {
         wordKey({"composite", "removes the blocked light, or multiplies the colour by dark"}, composite(),
                 {{"relight", ShadowCasterGroup::RELIGHT}, {"blend", ShadowCasterGroup::BLEND}}),
         numberKey({"dark", "with composite=blend: factor for the colour in shadow"}, dark(), 0.0f, 1.0f),
+        wordKey(
+            {"terminator", "smooth bodies cast from a facet's length on there, without teeth; or as their facets are"},
+            terminatorOffset(), {{"offset", true}, {"facets", false}}),
         receiverKey(receiver),
     };
 }

@@ -99,11 +99,12 @@ void add(VolumeRound& round, const SeenVolumes& all, const SeenPart& seen) {
     append(part.grazed ? sides.grazed : sides.usual, {part.first, part.count});
     if (!seen.holding) append(seen.showsBack ? share.bothCaps : share.lightCaps, seen.caps.light);
     append(share.darkCaps, seen.caps.dark);
-    if (seen.holding && seen.showsBack) append(share.backs, seen.caps.light);
+    if (seen.holding) append(share.backs, seen.showsBack ? seen.caps.light : seen.caps.rim);
+    if (seen.holding) append(share.rims, seen.caps.rim);
     round.holding += seen.holding.value_or(0);
 }
 
-/// To those from `first` on that are counted from behind, or may be seen from there.
+/// To those from `first` on that are counted from behind, may be seen from there, or have a rim.
 osg::ref_ptr<const VolumeGeometry> giveCaps(LightVolumes& volumes, std::vector<SeenPart>& parts, std::size_t first) {
     const SilhouetteMesh& mesh = *volumes.caster().mesh;
     const bool anyBack = std::any_of(parts.begin() + std::ptrdiff_t(first), parts.end(),
@@ -115,8 +116,9 @@ osg::ref_ptr<const VolumeGeometry> giveCaps(LightVolumes& volumes, std::vector<S
         SeenPart* seen = next < parts.size() && parts[next].part == i ? &parts[next++] : nullptr;
         const bool isClosed = seen && !seen->holding, showsBack = seen && seen->showsBack;
         // If one open part shows its back, the next view may have another: all of them are there then, and stay.
-        if (!isClosed && !showsBack && !(anyBack && !mesh.parts[i].closed)) continue;
-        wanted.push_back({i, isClosed});
+        const bool light = isClosed || showsBack || (anyBack && !mesh.parts[i].closed);
+        if (!light && !mesh.parts[i].smooth) continue;
+        wanted.push_back({i, light, isClosed});
         of.push_back(seen);
     }
     std::vector<CapRanges> ranges;
@@ -267,12 +269,14 @@ osg::ref_ptr<const VolumeGeometry> LightVolumes::capsOf(const std::vector<CapsWa
         _ranges.clear();
         for (const CapsWanted& of : wanted) {
             CapRanges range;
-            range.light.first = end();
-            appendLightCap(*_caster.mesh, _volumes, of.part, caps);
-            range.dark.first = end();
-            range.light.count = range.dark.first - range.light.first;
-            if (of.dark) appendDarkCap(*_caster.mesh, _volumes, of.part, caps);
-            range.dark.count = end() - range.dark.first;
+            const auto add = [&](VolumeGeometry::Range& range, auto&& append) {
+                range.first = end();
+                append(*_caster.mesh, _volumes, of.part, caps);
+                range.count = end() - range.first;
+            };
+            if (of.light) add(range.light, appendLightCap);
+            if (of.dark) add(range.dark, appendDarkCap);
+            add(range.rim, appendRim);
             _ranges.push_back(range);
         }
         _caps->set(caps.vertices, caps.corners);

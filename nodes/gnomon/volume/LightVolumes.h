@@ -62,13 +62,15 @@ struct VolumeCaster {
 /// Caps of a part of the mesh.
 struct CapsWanted {
     unsigned part;
-    bool dark; ///< the end, too; else the surface that casts alone.
+    bool light, dark; ///< the surface that casts, and the end; the rim of what is smooth in any case.
 
-    bool operator==(const CapsWanted& other) const { return part == other.part && dark == other.dark; }
+    bool operator==(const CapsWanted& other) const {
+        return part == other.part && light == other.light && dark == other.dark;
+    }
 };
-/// The surface that casts, and after it the end.
+/// The surface that casts, its rim, and the end.
 struct CapRanges {
-    VolumeGeometry::Range light{0, 0}, dark{0, 0};
+    VolumeGeometry::Range light{0, 0}, rim{0, 0}, dark{0, 0};
 };
 
 /// The volumes of one mesh behind one light.
@@ -127,7 +129,7 @@ struct SeenPart {
     unsigned part;
     std::optional<int> holding; ///< see volumesHolding().
     bool showsBack;             ///< see mayShowBack().
-    CapRanges caps;             ///< without `holding`; of what shows its back, the surface that casts in any case.
+    CapRanges caps; ///< without `holding`; of what shows its back, the surface that casts in any case; rims.
 };
 
 /// Volumes that are counted together: not more of them hold any one point than a counter can count.
@@ -138,10 +140,10 @@ struct VolumeRound {
     };
     /// Of one mesh: sides to count from the eye, and from behind; for those light caps, others that may be seen from either
     /// side, and dark caps; and of what is counted from the eye surfaces that cast, which do not count where they are seen
-    /// from behind.
+    /// from behind, and rims, which count where they are seen from before.
     struct Share {
         Sides entered, left;
-        std::vector<VolumeGeometry::Range> lightCaps, bothCaps, darkCaps, backs;
+        std::vector<VolumeGeometry::Range> lightCaps, bothCaps, darkCaps, backs, rims;
     };
     std::map<std::size_t, Share> shares; ///< by mesh.
     int holding = 0;                     ///< those counted from the eye that the eye is in.

@@ -75,14 +75,20 @@ constexpr const char* overflow =
     "Leave more bits out of CompositorOptions::reservedStencilBits, or use map for that caster.";
 
 /// A light cap lies in the surface that casts, which is as lit as its light's side: so it is behind that from there, and
-/// before it from the other side. A dark cap is where it is, close before the lowest surface for an eye below all.
+/// before it from the other side. A dark cap is where it is, close before the lowest surface for an eye below all. A rim is
+/// behind the surface that casts, but may be seen beside it.
 void VolumeMark::count(ScreenPass& pass, unsigned counters, const MeshInView& mesh,
                        const VolumeRound::Share& share) const {
     place(pass.state(), mesh);
+    const glm::dvec2 back = glm::max(pushedBack, 0.0) + apart, forward = glm::min(pushedBack, 0.0) - apart;
     pass.countEntered(counters);
     drawSides(pass.renderInfo(), mesh.volumes->sides(), share.entered);
+    if (!share.rims.empty()) {
+        glEnable(GL_CULL_FACE);
+        drawOffset(pass.renderInfo(), *mesh.caps, share.rims, back);
+        glDisable(GL_CULL_FACE);
+    }
     if (share.lightCaps.empty() && share.bothCaps.empty()) return;
-    const glm::dvec2 back = glm::max(pushedBack, 0.0) + apart, forward = glm::min(pushedBack, 0.0) - apart;
     pass.countHolding(counters);
     drawSides(pass.renderInfo(), mesh.volumes->sides(), share.left);
     mesh.caps->draw(pass.renderInfo(), share.darkCaps);

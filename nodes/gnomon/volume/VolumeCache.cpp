@@ -33,9 +33,9 @@ std::shared_ptr<const SilhouetteMesh> edgesOf(const CasterMesh& mesh) {
     return mesh.derived<SilhouetteMesh>([&mesh] {
         if (mesh.empty()) return std::make_shared<const SilhouetteMesh>();
         const std::vector<std::uint8_t> kinds = kindsOf(mesh);
-        return std::make_shared<const SilhouetteMesh>(positionsOf(mesh), mesh.vertices->size(),
-                                                      &mesh.triangles->front(), mesh.triangles->size(),
-                                                      kinds.empty() ? nullptr : kinds.data());
+        return std::make_shared<const SilhouetteMesh>(
+            SilhouetteMesh::Source{positionsOf(mesh), mesh.vertices->size(), &mesh.triangles->front(),
+                                   mesh.triangles->size(), kinds.empty() ? nullptr : kinds.data(), offsetsOf(mesh)});
     });
 }
 

@@ -78,7 +78,8 @@ std::shared_ptr<const SilhouetteMesh> edgesOf(const std::vector<glm::vec3>& plac
     if (places.empty() || places.size() > 3 * OpenCasters::mostTriangles) return nullptr;
     std::vector<unsigned> corners(places.size());
     std::iota(corners.begin(), corners.end(), 0u);
-    return std::make_shared<const SilhouetteMesh>(places.data(), places.size(), corners.data(), corners.size());
+    return std::make_shared<const SilhouetteMesh>(
+        SilhouetteMesh::Source{places.data(), places.size(), corners.data(), corners.size()});
 }
 
 DrawnCasters find(const CasterMesh& mesh) {

@@ -131,8 +131,8 @@ glm::dvec3 DepthTracer::start(const Span& span) const {
 
 Ray DepthTracer::toLight(const glm::dvec3& from) const {
     const glm::dvec3 light(_light);
-    if (_light.w == 0.0) return {from, light};
-    return {from, light / _light.w - from, 1.0};
+    if (_light.w == 0.0) return {from, light, std::numeric_limits<double>::infinity(), true};
+    return {from, light / _light.w - from, 1.0, true};
 }
 
 /// True if nothing but the surface itself, which faces away from the light, is between. Nearly all that is in shadow is

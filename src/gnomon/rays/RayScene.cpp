@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/RayScene.h>
+#include <gnomon/geometry/TerminatorOffset.h>
 #include <gnomon/rays/Placement.h>
 
 #if GNOMON_EMBREE == 4
@@ -132,6 +133,7 @@ struct RayScene::Embree {
         Cast(const Ray& ray, const Embree& embree);
         LocalRay local;
         const Embree& outer;
+        const bool toLight;
         bool overEnd = false; ///< meets a surface on which it ends, too.
     };
 
@@ -140,6 +142,7 @@ struct RayScene::Embree {
     Embree(const Embree&) = delete;
     Embree& operator=(const Embree&) = delete;
 
+    bool movesBefore(const LocalRay& ray, unsigned primitive, double u, double v) const;
     static void filter(const RTCFilterFunctionNArguments* arguments);
 
     void take(const TriangleSoup& soup);
@@ -162,6 +165,7 @@ struct RayScene::Embree {
     std::vector<unsigned> kept;          ///< for each of them, its place among those given.
     std::vector<Part> parts;             ///< by Embree's number.
     std::function<bool(unsigned, double, double)> solidAt;
+    std::vector<glm::vec4> offsets; ///< by vertex; may be empty.
     std::size_t leftOut = 0;
     double reach = 0.0;
     double size = 0.0; ///< how far from the origin the middle one of the triangles is: what is far off does not count.
@@ -173,7 +177,7 @@ RayScene::Embree::Embree() : scene(rtcNewScene(embreeDevice())) {
 }
 
 RayScene::Embree::Cast::Cast(const Ray& ray, const Embree& embree)
-    : local{ray.start - embree.origin, ray.along, ray.reach, 0.0}, outer(embree) {
+    : local{ray.start - embree.origin, ray.along, ray.reach, 0.0}, outer(embree), toLight(ray.toLight) {
     init(*this);
     if (!std::isinf(ray.reach)) local.endSize = largestOf(local.start + ray.reach * ray.along);
 }
@@ -184,13 +188,23 @@ void RayScene::Embree::filter(const RTCFilterFunctionNArguments* arguments) {
     const Cast& cast = *static_cast<const Cast*>(arguments->context);
     const unsigned primitive = RTCHitN_primID(arguments->hit, arguments->N, 0);
     const unsigned part = RTCHitN_instID(arguments->hit, arguments->N, 0, 0);
-    const bool met = part == RTC_INVALID_GEOMETRY_ID
-                         ? self.meets(cast.local, cast.overEnd, primitive)
-                         : self.meets(cast.outer.parts[part].inside(cast.local), cast.overEnd, primitive);
-    if (!met) arguments->valid[0] = 0;
-    if (!self.solidAt || !arguments->valid[0]) return;
-    const float u = RTCHitN_u(arguments->hit, arguments->N, 0), v = RTCHitN_v(arguments->hit, arguments->N, 0);
-    if (!self.solidAt(self.kept[primitive], double(u), double(v))) arguments->valid[0] = 0;
+    const LocalRay ray = part == RTC_INVALID_GEOMETRY_ID ? cast.local : cast.outer.parts[part].inside(cast.local);
+    const double u = double(RTCHitN_u(arguments->hit, arguments->N, 0)),
+                 v = double(RTCHitN_v(arguments->hit, arguments->N, 0));
+    if (!self.meets(ray, cast.overEnd, primitive) || (cast.toLight && self.movesBefore(ray, primitive, u, v)) ||
+        (self.solidAt && !self.solidAt(self.kept[primitive], u, v)))
+        arguments->valid[0] = 0;
+}
+
+/// Whether a point of the triangle, once it has moved along the ray, away from the light, is before the ray's start.
+bool RayScene::Embree::movesBefore(const LocalRay& ray, unsigned primitive, double u, double v) const {
+    if (offsets.empty()) return false;
+    const double length = glm::length(ray.along);
+    const auto offset = [&](std::size_t i) {
+        return terminatorOffset(offsets[indices[3 * std::size_t{primitive} + i]], ray.along / length);
+    };
+    const double away = (1.0 - u - v) * offset(0) + u * offset(1) + v * offset(2);
+    return away > 0.0 && refined(ray, primitive).distance * length < away;
 }
 
 /// Whether the triangle's plane is between the ray's ends, in double. Embree's floats are off by steps of the triangle's
@@ -225,6 +239,7 @@ void RayScene::Embree::take(const TriangleSoup& soup) {
         for (std::size_t i = 0; i < kept.size(); ++i)
             std::copy_n(soup.indices + 3 * std::size_t{kept[i]}, 3, corners + 3 * i);
         vertices = points;
+        if (soup.terminatorOffsets) offsets.assign(soup.terminatorOffsets, soup.terminatorOffsets + soup.vertexCount);
         indices = corners;
         rtcSetGeometryUserData(geometry, this);
         rtcSetGeometryIntersectFilterFunction(geometry, filter);

@@ -2,6 +2,7 @@
 #include <gnomon/Plane.h>
 #include <gnomon/geometry/Across.h>
 #include <gnomon/geometry/ScreenBounds.h>
+#include <gnomon/geometry/TerminatorOffset.h>
 #include <gnomon/silhouette/ShadowVolumes.h>
 
 #include <glm/common.hpp>
@@ -167,6 +168,14 @@ unsigned mostLayers(const SilhouetteMesh& mesh, const ShadowVolumes& volumes, st
     return std::min({most, stabbed(lines, 0) / 2, stabbed(lines, 1) / 2});
 }
 
+/// How far a vertex of the surface that casts goes on, in lengths of awayFrom().
+double startOf(const SilhouetteMesh& mesh, const glm::dvec4& light, unsigned vertex) {
+    if (mesh.offsets.empty() || !(mesh.offsets[vertex].w > 0.0f)) return 0.0;
+    const glm::dvec3 away = awayFrom(light, glm::dvec3(mesh.vertices[vertex]));
+    const double length = glm::length(away);
+    return length > 0.0 ? terminatorOffset(mesh.offsets[vertex], -away / length) / length : 0.0;
+}
+
 /// Puts the sides and the end of part after part into the arrays.
 class Writer {
 public:
@@ -196,8 +205,9 @@ private:
         place = {part, static_cast<unsigned>(_volumes.vertices.size())};
         const glm::vec3& at = _mesh.vertices[vertex];
         const double length = lengthTo(_volumes.parts[part].end, glm::dvec3(at), _volumes.light);
-        _volumes.vertices.emplace_back(at, 0.0f);
-        _volumes.vertices.emplace_back(at, static_cast<float>(length));
+        const double start = startOf(_mesh, _volumes.light, vertex);
+        _volumes.vertices.emplace_back(at, static_cast<float>(start));
+        _volumes.vertices.emplace_back(at, static_cast<float>(length < 0.0 ? length : std::max(length, start)));
         return place.vertex;
     }
     void triangle(unsigned a, unsigned b, unsigned c) { _volumes.corners.insert(_volumes.corners.end(), {a, b, c}); }
@@ -230,17 +240,26 @@ void findOutline(const SilhouetteMesh& mesh, ShadowVolumes& into) {
     }
 }
 
-/// The triangles that cast, turned to the light; or at infinity, turned away.
-void appendSurface(const SilhouetteMesh& mesh, const ShadowVolumes& volumes, std::size_t index, bool atInfinity,
+/// What of a part's triangles that cast.
+enum class Surface {
+    All,       ///< turned to the light.
+    Rim,       ///< those that have moved.
+    AtInfinity ///< turned away.
+};
+
+void appendSurface(const SilhouetteMesh& mesh, const ShadowVolumes& volumes, std::size_t index, Surface surface,
                    VolumeCaps& into) {
     const SilhouetteMesh::Part& part = mesh.parts[index];
     for (std::size_t i = part.firstTriangle; i < std::size_t(part.firstTriangle) + part.triangles; ++i) {
         if (volumes.weights[i] == 0) continue;
         const unsigned* of = mesh.corners.data() + 3 * i;
-        const bool turned = (volumes.weights[i] < 0) != atInfinity;
-        for (const unsigned corner : {of[0], of[turned ? 2 : 1], of[turned ? 1 : 2]}) {
+        double starts[3] = {-1.0, -1.0, -1.0};
+        for (int k = 0; k < 3 && surface != Surface::AtInfinity; ++k) starts[k] = startOf(mesh, volumes.light, of[k]);
+        if (surface == Surface::Rim && std::max({starts[0], starts[1], starts[2]}) == 0.0) continue;
+        const bool turned = (volumes.weights[i] < 0) != (surface == Surface::AtInfinity);
+        for (const int k : {0, turned ? 2 : 1, turned ? 1 : 2}) {
             into.corners.push_back(static_cast<unsigned>(into.vertices.size()));
-            into.vertices.emplace_back(mesh.vertices[corner], atInfinity ? -1.0f : 0.0f);
+            into.vertices.emplace_back(mesh.vertices[of[k]], static_cast<float>(starts[k]));
         }
     }
 }
@@ -308,12 +327,22 @@ struct Triangle {
     glm::dvec3 a, b, c, normal;
 };
 
-Triangle triangleOf(const SilhouetteMesh& mesh, std::size_t i) {
+/// As it casts.
+Triangle triangleOf(const SilhouetteMesh& mesh, const glm::dvec4& light, std::size_t i) {
     const unsigned* of = mesh.corners.data() + 3 * i;
-    return {glm::dvec3(mesh.vertices[of[0]]),
-            glm::dvec3(mesh.vertices[of[1]]),
-            glm::dvec3(mesh.vertices[of[2]]),
-            {mesh.planeX[i], mesh.planeY[i], mesh.planeZ[i]}};
+    Triangle t{glm::dvec3(mesh.vertices[of[0]]),
+               glm::dvec3(mesh.vertices[of[1]]),
+               glm::dvec3(mesh.vertices[of[2]]),
+               {mesh.planeX[i], mesh.planeY[i], mesh.planeZ[i]}};
+    bool moved = false;
+    glm::dvec3* corners[] = {&t.a, &t.b, &t.c};
+    for (int k = 0; k < 3; ++k)
+        if (const double start = startOf(mesh, light, of[k]); start > 0.0) {
+            *corners[k] += start * awayFrom(light, *corners[k]);
+            moved = true;
+        }
+    if (moved) t.normal = glm::normalize(glm::cross(t.b - t.a, t.c - t.a));
+    return t;
 }
 
 /// False if a plane is between them.
@@ -361,7 +390,11 @@ void findShadowVolumes(const SilhouetteMesh& mesh, const glm::dvec4& light, cons
 }
 
 void appendLightCap(const SilhouetteMesh& mesh, const ShadowVolumes& volumes, std::size_t index, VolumeCaps& into) {
-    appendSurface(mesh, volumes, index, false, into);
+    appendSurface(mesh, volumes, index, Surface::All, into);
+}
+
+void appendRim(const SilhouetteMesh& mesh, const ShadowVolumes& volumes, std::size_t index, VolumeCaps& into) {
+    if (mesh.parts[index].smooth) appendSurface(mesh, volumes, index, Surface::Rim, into);
 }
 
 void appendDarkCap(const SilhouetteMesh& mesh, const ShadowVolumes& volumes, std::size_t index, VolumeCaps& into) {
@@ -369,7 +402,7 @@ void appendDarkCap(const SilhouetteMesh& mesh, const ShadowVolumes& volumes, std
     if (volume.end != glm::dvec4(0.0))
         appendFan(volumes, volume, into);
     else if (volumes.light.w != 0.0)
-        appendSurface(mesh, volumes, index, true, into);
+        appendSurface(mesh, volumes, index, Surface::AtInfinity, into);
 }
 
 std::vector<glm::dvec4> endPlanes(const glm::dvec3& low, const glm::dvec3& high) {
@@ -435,7 +468,7 @@ std::optional<int> volumesHolding(const SightStart& start, const SilhouetteMesh&
     for (std::size_t i = part.firstTriangle; i < std::size_t(part.firstTriangle) + part.triangles; ++i) {
         const int weight = volumes.weights[i];
         if (weight == 0) continue;
-        const Triangle triangle = triangleOf(mesh, i);
+        const Triangle triangle = triangleOf(mesh, light, i);
         if (mayBeCut && mayMeet(start.cutAway, triangle)) return std::nullopt;
         if (apart) continue;
         const std::optional<bool> hidden = hides(triangle, weight, start.eye, light);

@@ -20,7 +20,8 @@ inline glm::dvec3 awayFrom(const glm::dvec4& light, const glm::dvec3& place) {
 
 /// The volumes behind the parts of a mesh as seen from a light, ready to be drawn.
 ///
-/// A vertex is a place and how far it goes on, away from the light, in lengths of awayFrom(): below 0 to infinity.
+/// A vertex is a place and how far it goes on, away from the light, in lengths of awayFrom(): below 0 to infinity. Of the
+/// surface that casts it is 0, or what terminatorOffset() says.
 struct ShadowVolumes {
     /// Of one part: its sides. What closes them, see appendLightCap() and appendDarkCap().
     struct Part {
@@ -59,6 +60,8 @@ struct VolumeCaps {
 };
 /// The surface that casts.
 void appendLightCap(const SilhouetteMesh& mesh, const ShadowVolumes& volumes, std::size_t index, VolumeCaps& into);
+/// Those of its triangles that have moved: the light sees as much of them, but they are not in the surface that is seen.
+void appendRim(const SilhouetteMesh& mesh, const ShadowVolumes& volumes, std::size_t index, VolumeCaps& into);
 /// The end. A sun's that goes to infinity ends in a point.
 void appendDarkCap(const SilhouetteMesh& mesh, const ShadowVolumes& volumes, std::size_t index, VolumeCaps& into);
 
@@ -89,7 +92,7 @@ struct SightStart {
 /// How many volumes of a part the eye is in; nullopt if that is not certain, or does not suffice.
 ///
 /// Lines of sight that begin outside all volumes, or in a known number of them, enter and leave volumes through their sides
-/// alone (z-pass, with depths clamped at the near plane). That holds if no caster is cut away before the near plane, and no
+/// alone, and through rims (z-pass, with depths clamped at the near plane). That holds if no caster is cut away before the near plane, and no
 /// end is seen from below. Else the volumes must be closed, and are counted from behind (z-fail).
 ///
 /// @param mayBeCut  something of the part's bounds is before the near plane.
@@ -98,7 +101,8 @@ struct SightStart {
 std::optional<int> volumesHolding(const SightStart& start, const SilhouetteMesh& mesh, const ShadowVolumes& volumes,
                                   std::size_t index, bool mayBeCut);
 
-/// Whether a surface of a part that casts can be seen from behind: the eye is on one side of it, the light on the other.
+/// Whether a surface of a part that casts, but for rims, can be seen from behind: the eye is on one side of it, the light on
+/// the other.
 /// Never of a closed part, unless the eye or a lamp may be inside.
 /// @param mayBeCut  see volumesHolding().
 bool mayShowBack(const SightStart& start, const SilhouetteMesh& mesh, const ShadowVolumes& volumes, std::size_t index,

@@ -44,6 +44,14 @@ std::vector<unsigned> weldInto(std::vector<glm::vec3>& places, const glm::vec3* 
     return result;
 }
 
+/// At each place one for all: several drawables, or the two sides of a seam, may meet there.
+std::vector<glm::vec4> largestAt(const std::vector<unsigned>& places, const glm::vec4* offsets, std::size_t count) {
+    std::vector<glm::vec4> result(count, glm::vec4(0.0f));
+    for (std::size_t i = 0; i < places.size(); ++i)
+        if (offsets[i].w > result[places[i]].w) result[places[i]] = offsets[i];
+    return result;
+}
+
 /// Three places in `vertices` a triangle, but for triangles with two corners in one. @param sources  gets their numbers.
 std::vector<unsigned> triangleCorners(const std::vector<unsigned>& places, const unsigned* corners, std::size_t count,
                                       std::vector<std::size_t>& sources) {
@@ -299,16 +307,16 @@ bool SilhouetteMesh::Part::boundsHold(const glm::dvec3& place) const {
            glm::all(glm::lessThanEqual(place, glm::dvec3(high)));
 }
 
-SilhouetteMesh::SilhouetteMesh(const glm::vec3* positions, std::size_t count, const unsigned* given,
-                               std::size_t cornerCount, const std::uint8_t* kinds) {
-    std::vector<unsigned> places = weldInto(vertices, positions, count);
+SilhouetteMesh::SilhouetteMesh(const Source& source) {
+    std::vector<unsigned> places = weldInto(vertices, source.positions, source.count);
     std::vector<std::size_t> sources;
-    std::vector<unsigned> found = triangleCorners(places, given, cornerCount, sources);
+    std::vector<unsigned> found = triangleCorners(places, source.corners, source.cornerCount, sources);
     Sides sides(found, vertices.size());
     if (closeSeams(sides, vertices, places)) {
-        found = triangleCorners(places, given, cornerCount, sources);
+        found = triangleCorners(places, source.corners, source.cornerCount, sources);
         sides = Sides(found, vertices.size());
     }
+    if (source.offsets) offsets = largestAt(places, source.offsets, vertices.size());
     const std::size_t total = found.size() / 3;
     Sets connected(total);
     std::vector<Edge> pairs = pairSides(sides, total, connected);
@@ -316,9 +324,13 @@ SilhouetteMesh::SilhouetteMesh(const glm::vec3* positions, std::size_t count, co
     std::vector<unsigned> partOf = numberParts(connected, total, partCount);
 
     constexpr float most = std::numeric_limits<float>::max();
-    parts.assign(partCount, {0, 0, 0, 0, true, false, glm::vec3(most), glm::vec3(-most), 0});
-    for (std::size_t i = 0; i < found.size(); ++i) expand(parts[partOf[i / 3]], vertices[found[i]]);
-    for (std::size_t i = 0; kinds && i < total; ++i) parts[partOf[i]].kinds |= kinds[sources[i]];
+    parts.assign(partCount, {0, 0, 0, 0, true, false, glm::vec3(most), glm::vec3(-most), 0, false});
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        Part& part = parts[partOf[i / 3]];
+        expand(part, vertices[found[i]]);
+        part.smooth = part.smooth || (!offsets.empty() && offsets[found[i]].w > 0.0f);
+    }
+    for (std::size_t i = 0; source.kinds && i < total; ++i) parts[partOf[i]].kinds |= source.kinds[sources[i]];
     parts = putInOrder(std::move(parts), partOf);
 
     const std::vector<unsigned> triangleAt = placesBy(total, partCount, [&](std::size_t i) { return partOf[i]; });

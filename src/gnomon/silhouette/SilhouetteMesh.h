@@ -33,20 +33,27 @@ struct SilhouetteMesh {
         bool inward;         ///< closed, and turned inside out.
         glm::vec3 low, high; ///< bounds.
         std::uint8_t kinds;  ///< of its triangles, those of all.
+        bool smooth;         ///< some of its vertices have an offset.
 
         bool boundsHold(const glm::dvec3& place) const;
     };
 
+    /// What it is made from, in the caller's memory.
+    struct Source {
+        const glm::vec3* positions = nullptr; ///< finite.
+        std::size_t count = 0;
+        const unsigned* corners = nullptr; ///< three a triangle, counter-clockwise from its front.
+        std::size_t cornerCount = 0;
+        const std::uint8_t* kinds = nullptr; ///< bits for each triangle, whose meaning is the caller's; null: 0.
+        const glm::vec4* offsets = nullptr;  ///< by vertex, see terminatorOffsets(); null: 0.
+    };
     SilhouetteMesh() = default;
-    /// @param positions  finite.
-    /// @param corners    three a triangle, counter-clockwise from its front.
-    /// @param kinds      bits for each triangle, whose meaning is the caller's; null: 0.
-    SilhouetteMesh(const glm::vec3* positions, std::size_t count, const unsigned* corners, std::size_t cornerCount,
-                   const std::uint8_t* kinds = nullptr);
+    explicit SilhouetteMesh(const Source& source);
 
     std::size_t triangles() const { return planeD.size(); }
 
     std::vector<glm::vec3> vertices; ///< each place once.
+    std::vector<glm::vec4> offsets;  ///< of each, see terminatorOffsets(); empty if there are none.
     glm::vec3 low{0.0f}, high{0.0f}; ///< bounds of all parts.
     std::vector<unsigned> corners;   ///< three a triangle.
     std::vector<Edge> edges;
