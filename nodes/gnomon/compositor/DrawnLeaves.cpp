@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <climits>
 #include <cmath>
+#include <limits>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -35,19 +36,17 @@ void append(osgUtil::RenderBin& bin, int before, std::vector<DrawnLeaf>& leaves)
     for (; next != bins.end() && next->first < before; ++next) append(*next->second, INT_MAX, leaves);
 }
 
-/// How far apart places in eye space may be that are the same product of doubles, taken in another order.
-double placeMargin(const osg::Matrixd& place) {
-    return 1e-9 * (1.0 + std::abs(place(3, 0)) + std::abs(place(3, 1)) + std::abs(place(3, 2)));
-}
-
-bool isSamePlace(const osg::Matrixd& a, const osg::Matrixd& b) {
+bool isSamePlace(const osg::Matrixd& a, const osg::Matrixd& b, double rounding) {
     double difference = 0.0, size = 0.0;
     for (int i = 0; i < 16; ++i) {
         difference = std::max(difference, std::abs(a.ptr()[i] - b.ptr()[i]));
         size = std::max(size, std::abs(a.ptr()[i]));
     }
-    return difference <= 1e-9 * size;
+    return difference <= 1e-9 * size + rounding;
 }
+
+/// Orders places, of which those in a grid mostly share a coordinate.
+double along(const osg::Matrixd& place) { return place(3, 0) + 0.618 * place(3, 1) + 0.327 * place(3, 2); }
 
 using Nodes = std::unordered_set<const osg::Node*>;
 
@@ -129,8 +128,8 @@ public:
         _isUnder = wasUnder || _part.roots.empty() || _part.roots.count(&node) > 0;
         const bool passes = !_isUnder || (node.getNodeMask() & _part.mask);
         if (const osg::Drawable* drawable = passes && _isUnder ? node.asDrawable() : nullptr)
-            _found[drawable].insert({_eyeFromHere(3, 0), _eyeFromHere});
-        if (passes && !(_first && any())) traverse(node);
+            found.add(*drawable, _eyeFromHere);
+        if (passes && !(_first && !found.empty())) traverse(node);
         _isUnder = wasUnder;
     }
     void apply(osg::Drawable& drawable) override { apply(static_cast<osg::Node&>(drawable)); }
@@ -145,18 +144,7 @@ public:
         _eyeFromHere = above;
     }
 
-    bool any() const { return !_found.empty(); }
-    bool has(const osg::Drawable& drawable) const { return _found.count(&drawable) > 0; }
-    /// True if one of the drawable's places gives this modelview.
-    bool hasAt(const osg::Drawable& drawable, const osg::Matrixd& here) const {
-        const auto places = _found.find(&drawable);
-        if (places == _found.end()) return false;
-        const double margin = placeMargin(here);
-        const auto end = places->second.upper_bound(here(3, 0) + margin);
-        for (auto place = places->second.lower_bound(here(3, 0) - margin); place != end; ++place)
-            if (isSamePlace(place->second, here)) return true;
-        return false;
-    }
+    DrawablePlaces found;
 
 private:
     const Part& _part;
@@ -164,8 +152,6 @@ private:
     const osg::Matrixd _eyeFromWorld;
     osg::Matrixd _eyeFromHere;
     bool _isUnder = false;
-    /// Where they stand in eye space, by the x of that.
-    std::unordered_map<const osg::Drawable*, std::multimap<double, osg::Matrixd>> _found;
 };
 
 bool isPlainDepth(const osg::StateAttribute* attribute) {
@@ -237,6 +223,23 @@ bool isSameLens(const osg::Matrixd& a, const osg::Matrixd& b) {
     return true;
 }
 
+void DrawablePlaces::add(const osg::Drawable& drawable, const osg::Matrixd& place) {
+    _places.insert({{&drawable, along(place)}, place});
+}
+
+bool DrawablePlaces::has(const osg::Drawable& drawable) const {
+    const auto found = _places.lower_bound({&drawable, -std::numeric_limits<double>::infinity()});
+    return found != _places.end() && found->first.first == &drawable;
+}
+
+bool DrawablePlaces::hasAt(const osg::Drawable& drawable, const osg::Matrixd& place, double rounding) const {
+    const osg::Vec3d at = place.getTrans();
+    const double margin = 1e-9 * (1.0 + std::abs(at.x()) + std::abs(at.y()) + std::abs(at.z())) + 2.0 * rounding;
+    const auto end = _places.upper_bound({&drawable, along(place) + margin});
+    return std::any_of(_places.lower_bound({&drawable, along(place) - margin}), end,
+                       [&](const auto& known) { return isSamePlace(known.second, place, rounding); });
+}
+
 std::vector<DrawnLeaf> leavesBelow(osgUtil::RenderStage& stage, int number) {
     std::vector<DrawnLeaf> leaves;
     append(stage, number, leaves);
@@ -259,7 +262,7 @@ LeafSet receiversAmong(const std::vector<DrawnLeaf>& leaves, const Selection& re
         const Ways ways = waysUnder(*entry.leaf->_drawable);
         const bool isOpen = ways.some && !ways.all;
         if (isOpen && !below) below = new FoundBelow(part, eyeFromWorld);
-        if (isOpen ? below->hasAt(*entry.leaf->_drawable, modelviewOf(*entry.leaf)) : ways.some)
+        if (isOpen ? below->found.hasAt(*entry.leaf->_drawable, modelviewOf(*entry.leaf)) : ways.some)
             result.insert(entry.leaf);
     }
     return result;
@@ -275,7 +278,7 @@ drawablesUnder(const Selection& selection, const std::vector<const osg::Drawable
         const Ways ways = waysUnder(*drawable);
         const bool isOpen = ways.some && !ways.all;
         if (isOpen && !below) below = new FoundBelow(part, {});
-        if (isOpen ? below->has(*drawable) : ways.some) result.insert(drawable);
+        if (isOpen ? below->found.has(*drawable) : ways.some) result.insert(drawable);
     }
     return result;
 }
@@ -292,7 +295,7 @@ std::string whyMissing(const Selection& selection, const char* role, const osg::
     if (selection.node && !mayBeSeen(*selection.node, stage.getCamera())) return "";
     const Part part(selection, from);
     const osg::ref_ptr<FoundBelow> below = new FoundBelow(part, {}, true);
-    if (below->any()) return "";
+    if (!below->found.empty()) return "";
     const std::string name = selection.node ? " '" + nameOf(*selection.node) + "'" : "";
     return "nothing that is drawn is found under the " + (role + name) +
            ". Name a node that hands on what it draws to every osg::NodeVisitor, and check the mask.";

@@ -13,6 +13,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gnomon {
@@ -30,6 +31,21 @@ inline const osg::Matrixd& projectionOf(const osgUtil::RenderLeaf& leaf) { retur
 
 /// True if two views have the same lens: the same but for near and far, which a nested camera finds for itself.
 bool isSameLens(const osg::Matrixd& a, const osg::Matrixd& b);
+
+/// Where drawables stand in eye space, to be asked for by drawable and place.
+class DrawablePlaces {
+public:
+    void add(const osg::Drawable& drawable, const osg::Matrixd& place);
+    bool empty() const { return _places.empty(); }
+    /// True if the drawable stands anywhere.
+    bool has(const osg::Drawable& drawable) const;
+    /// True if the drawable stands there, but for the rounding of a product that is taken in another order.
+    /// @param rounding  of coordinates on the way there, if they are larger than those in eye space.
+    bool hasAt(const osg::Drawable& drawable, const osg::Matrixd& place, double rounding = 0.0) const;
+
+private:
+    std::multimap<std::pair<const osg::Drawable*, double>, osg::Matrixd> _places; ///< by place, too.
+};
 
 /// Every leaf that the stage draws before bin `number`, in the order in which it is drawn. Valid from the end of sort
 /// to the end of draw.

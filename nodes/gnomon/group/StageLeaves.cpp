@@ -59,6 +59,8 @@ ProgramCauses::ProgramCauses(osgUtil::RenderStage& stage)
 }
 
 void ProgramCauses::findStanding(const osg::Matrixd& projection) const {
+    _standing.emplace();
+    _lens = projection;
     const osgUtil::StateGraph* graph = nullptr; // leaves of one state mostly follow each other
     const osg::RefMatrix* lens = nullptr;       // and those of one lens
     bool stands = false, isOfView = false;
@@ -69,47 +71,15 @@ void ProgramCauses::findStanding(const osg::Matrixd& projection) const {
         }
         if (!lens || entry.leaf->_projection != lens) isOfView = isSameLens(projectionOf(*entry.leaf), projection);
         lens = entry.leaf->_projection.get();
-        if (stands && isOfView && !entry.leaf->_drawable->getDrawCallback()) _standing.push_back(entry.leaf);
+        if (stands && isOfView && !entry.leaf->_drawable->getDrawCallback())
+            _standing->add(*entry.leaf->_drawable, modelviewOf(*entry.leaf));
     }
 }
 
 bool ProgramCauses::draws(const Caster& caster, const ViewFrame& view) const {
-    if (_standing.empty() && _next == 0) findStanding(view.projection);
-    if (_standing.empty()) {
-        _next = 1; // they need not be looked for again
-        return false;
-    }
-    // Where the origin goes, and a direction: two places of one drawable differ by these.
-    const auto turned = [](const osg::Matrixd& m) {
-        return osg::Vec3d(m(0, 0) + 2.0 * m(1, 0) + 3.0 * m(2, 0), m(0, 1) + 2.0 * m(1, 1) + 3.0 * m(2, 1),
-                          m(0, 2) + 2.0 * m(1, 2) + 3.0 * m(2, 2));
-    };
-    const auto size = [](const osg::Vec3d& v) { return std::abs(v.x()) + std::abs(v.y()) + std::abs(v.z()); };
-    const osg::Vec3d inGroup = caster.groupFromLocal.getTrans(), place = inGroup * view.eyeFromGroup,
-                     way = osg::Matrixd::transform3x3(turned(caster.groupFromLocal), view.eyeFromGroup);
-    const double margin = 1e-9 * (size(place) + size(way)) + 1e-14 * size(inGroup); // the same product in another order
-    const auto isAt = [&](const osgUtil::RenderLeaf& leaf) {
-        const osg::Matrixd& here = modelviewOf(leaf);
-        return size(here.getTrans() - place) <= margin && size(turned(here) - way) <= margin;
-    };
-    if (_next < _standing.size() && _standing[_next]->_drawable == caster.drawable && isAt(*_standing[_next])) {
-        ++_next;
-        return true;
-    }
-    if (_sorted.empty()) {
-        for (std::size_t i = 0; i < _standing.size(); ++i)
-            _sorted.emplace_back(_standing[i]->_drawable.get(), modelviewOf(*_standing[i])(3, 0), i);
-        std::sort(_sorted.begin(), _sorted.end());
-    }
-    auto found = std::lower_bound(_sorted.begin(), _sorted.end(), Standing{caster.drawable, place.x() - margin, 0});
-    for (; found != _sorted.end(); ++found) {
-        const auto& [drawable, x, index] = *found;
-        if (drawable != caster.drawable || x > place.x() + margin) return false;
-        if (!isAt(*_standing[index])) continue;
-        _next = index + 1;
-        return true;
-    }
-    return false;
+    if (!_standing || !isSameLens(_lens, view.projection)) findStanding(view.projection);
+    const osg::Vec3d inGroup = caster.groupFromLocal.getTrans();
+    return _standing->hasAt(*caster.drawable, caster.groupFromLocal * view.eyeFromGroup, 1e-14 * inGroup.length());
 }
 
 void ProgramCauses::report(const FrameReport& report, const ShadowCasterGroup& group, const Leaves& receiving,

@@ -22,7 +22,6 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace gnomon {
@@ -53,8 +52,7 @@ using Leaves = std::vector<const osgUtil::RenderLeaf*>;
 /// What the programs of one view do that shadows cannot follow, for diagnose(); and which casters the view draws where they stand.
 /// Asked for once a view.
 ///
-/// Cost    a look at each state's program, and once at each program's text. draws(): the leaves are sorted once, where those of
-///         casters are in another order.
+/// Cost    a look at each state's program, and once at each program's text. draws(): the leaves are sorted once.
 class ProgramCauses {
 public:
     ProgramCauses() = default;
@@ -83,15 +81,12 @@ private:
     std::set<const osgUtil::RenderLeaf*> _setDepths; ///< Their program sets a depth of its own.
     osg::Matrixd _eyeFromWorld;
 
-    /// A drawable, the x of its place in eye space, and its place among the leaves that are drawn as their arrays stand.
-    using Standing = std::tuple<const osg::Drawable*, double, std::size_t>;
     void findStanding(const osg::Matrixd& projection) const;
 
     std::vector<DrawnLeaf> _all;
     std::map<const osgUtil::StateGraph*, ProgramPlaces> _places;
-    mutable std::vector<const osgUtil::RenderLeaf*> _standing; ///< in their order; empty until they are asked for,
-    mutable std::vector<Standing> _sorted;                     ///< and sorted.
-    mutable std::size_t _next = 0; ///< of these: casters mostly follow each other as their leaves do.
+    mutable std::optional<DrawablePlaces> _standing; ///< Of what is drawn as its arrays stand, once asked for,
+    mutable osg::Matrixd _lens;                      ///< by this lens.
 };
 
 /// What one stage draws, as its ShadowBin of number `number` sees it after the cull.
