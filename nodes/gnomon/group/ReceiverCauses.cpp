@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/base/Fingerprint.h>
-#include <gnomon/base/PixelRect.h>
 #include <gnomon/compositor/KeptByStage.h>
 #include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/compositor/ShadowJob.h>
@@ -248,48 +247,38 @@ void reportUnshadowed(const TechniqueInStage& asked, const std::vector<ShadowLig
     }
 }
 
-void reportCoarseDepth(const TechniqueInStage& asked, const ShadowLight& light, const Casters& casters, double steps) {
+void reportUnsureDepths(const TechniqueInStage& asked, const ShadowLight& light, const Casters& casters, double steps,
+                        const Receiving& receiving) {
     const EnlistedTechnique& entry = asked.entry;
-    osgUtil::RenderStage& stage = asked.stage;
-    const PixelRect all = pixelsOf(*stage.getViewport());
-    const DepthPixels pixels{{double(all.width), double(all.height)}, steps};
-    const Leaves none;
-    const LightInView lit{*entry.group, light, casters, none, entry.eyeFromGroup};
-    if (!reachesCoarseDepth(lit, *entry.projection, pixels)) return;
-    Fingerprint seen;
-    seen.mix(entry.eyeFromGroup);
-    seen.mix(*entry.projection);
-    const std::string cause = keptBy<RecalledCauses>(stage).causeOf(
-        RecalledCauses::Kind::CoarseDepth, entry.technique.get(), lit, {seen.value(), 0}, [&] {
-            const std::string name = coarselyPlaced(lit, *entry.projection, pixels);
-            if (name.empty()) return name;
-            return "depths cannot tell where the shadow of '" + name +
-                   "' falls, because their steps are too long there. Move the near plane out, or "
-                   "let OpenSceneGraph compute it.";
-        });
-    if (!cause.empty()) entry.report(cause);
-}
-
-void reportLargeCoordinates(const TechniqueInStage& asked, const ShadowLight& light, const Casters& casters,
-                            const Receiving& receiving) {
-    const EnlistedTechnique& entry = asked.entry;
-    const osg::Vec2d pixels = viewOf(entry, *asked.stage.getViewport()).pixels;
+    const osg::Matrixd& lens = *entry.projection;
+    const DepthPixels pixels{viewOf(entry, *asked.stage.getViewport()).pixels, steps};
     const LightInView lit{*entry.group, light, casters, receiving.early, entry.eyeFromGroup};
     Fingerprint seen;
     seen.mix(entry.eyeFromGroup);
-    seen.mix(*entry.projection);
+    seen.mix(lens);
     seen.mix(std::uint64_t{receiving.early.size() + receiving.late.size()});
-    const std::string cause =
-        keptBy<RecalledCauses>(asked.stage)
-            .causeOf(RecalledCauses::Kind::LargeCoordinates, entry.technique.get(), lit, {seen.value(), 0}, [&] {
-                std::string name = drawnOffItsPlace(receiving.early, *entry.projection, pixels);
-                if (name.empty()) name = drawnOffItsPlace(receiving.late, *entry.projection, pixels);
-                if (name.empty()) return name;
-                return "the vertices of '" + name +
-                       "' lie so far from their origin that OpenGL draws them off their place, so shadows on it may be "
-                       "lost or false. Put the offset into a transform, or use traced.";
-            });
-    if (!cause.empty()) entry.report(cause);
+    const auto report = [&](RecalledCauses::Kind kind, const char* before, const char* after, const auto& find) {
+        const auto found = [&] {
+            const std::string name = find();
+            return name.empty() ? name : before + name + after;
+        };
+        const std::string cause =
+            keptBy<RecalledCauses>(asked.stage).causeOf(kind, entry.technique.get(), lit, {seen.value(), 0}, found);
+        if (!cause.empty()) entry.report(cause);
+    };
+    if (reachesCoarseDepth(lit, lens, pixels))
+        report(RecalledCauses::Kind::CoarseDepth, "depths cannot tell where the shadow of '",
+               "' falls, because their steps are too long there. Move the near plane out, or let OpenSceneGraph "
+               "compute it.",
+               [&] { return coarselyPlaced(lit, lens, pixels); });
+    report(
+        RecalledCauses::Kind::LargeCoordinates, "the vertices of '",
+        "' lie so far from their origin that OpenGL draws them off their place, so shadows on it may be lost or false. "
+        "Put the offset into a transform, or use traced.",
+        [&] {
+            const std::string name = drawnOffItsPlace(receiving.early, lens, pixels.size);
+            return name.empty() ? drawnOffItsPlace(receiving.late, lens, pixels.size) : name;
+        });
 }
 
 } // namespace gnomon

@@ -45,12 +45,10 @@ void reportEnclosers(const TechniqueInStage& asked, const std::vector<ShadowLigh
 /// techniques that shadow some of what is in view.
 void reportUnshadowed(const TechniqueInStage& asked, const std::vector<ShadowLight>& lights, const Casters& casters);
 
-/// Says that the shadows of what is far away cannot be placed by depth. For techniques whose marks depend on it.
+/// Says that the shadows of what is far away cannot be placed by depth, and which receiver is drawn off its place because its
+/// vertices lie far from their origin. For techniques whose marks depend on depth.
 /// @param steps  see Mark::depthSteps, above 0.
-void reportCoarseDepth(const TechniqueInStage& asked, const ShadowLight& light, const Casters& casters, double steps);
-
-/// Says which receiver is drawn off its place, because its vertices lie far from their origin. For the same techniques.
-void reportLargeCoordinates(const TechniqueInStage& asked, const ShadowLight& light, const Casters& casters,
-                            const Receiving& receiving);
+void reportUnsureDepths(const TechniqueInStage& asked, const ShadowLight& light, const Casters& casters, double steps,
+                        const Receiving& receiving);
 
 } // namespace gnomon

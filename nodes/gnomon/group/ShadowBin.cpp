@@ -357,9 +357,7 @@ void ShadowBin::askForMarks(const EnlistedTechnique& entry, const GroupLights& f
     const auto take = [&steps](const ShadowJob& job) { steps = std::max(steps, job.mark->depthSteps); };
     std::for_each(_jobs.begin() + before, _jobs.end(), take);
     std::for_each(_lateJobs.begin() + lateBefore, _lateJobs.end(), take);
-    if (!(steps > 0.0)) return;
-    reportCoarseDepth(asked, found.lights.front(), casters, steps);
-    reportLargeCoordinates(asked, found.lights.front(), casters, receiving);
+    if (steps > 0.0) reportUnsureDepths(asked, found.lights.front(), casters, steps, receiving);
 }
 
 /// Asks a technique for its marks: each part of the receivers, and each light.
