@@ -496,17 +496,13 @@ void writeWhereSeen(const CompositorStage& draw, const std::vector<ReplayedLeaf>
 std::vector<ReplayedLeaf> notOfLens(const ShadowJob& job, const std::vector<DrawnLeaf>& leaves) {
     TouchTest touches(job.mark->screenBounds, job.moved.get());
     std::vector<ReplayedLeaf> result;
-    auto first = leaves.begin(); // of those that may have something to hide
-    const auto hidesAny = [&](const DrawnLeaf& entry) {
-        const auto stands = [&](const DrawnLeaf& before) {
-            return job.isOfLens(*before.leaf) && writesDepth(before.leaf->_parent);
-        };
-        const auto end = leaves.begin() + (&entry - leaves.data());
-        first = std::find_if(first, end, stands);
-        return first != end || writesDepth(entry.leaf->_parent);
-    };
-    for (const DrawnLeaf& entry : leaves)
-        if (!job.isOfLens(*entry.leaf) && touches(*entry.leaf) && hidesAny(entry)) result.push_back({entry});
+    bool stands = false; // something of the lens that writes depth
+    for (const DrawnLeaf& entry : leaves) {
+        const bool isOfLens = job.isOfLens(*entry.leaf);
+        stands = stands || (isOfLens && writesDepth(entry.leaf->_parent));
+        const auto hides = [&] { return stands || writesDepth(entry.leaf->_parent); };
+        if (!isOfLens && touches(*entry.leaf) && hides()) result.push_back({entry});
+    }
     return result;
 }
 
