@@ -2,7 +2,6 @@
 #include <gnomon/compositor/CompositorStage.h>
 #include <gnomon/gl/SavedFramebuffers.h>
 
-#include <osg/ColorMask>
 #include <osgUtil/StateGraph>
 
 #include <algorithm>
@@ -50,12 +49,7 @@ CompositorStage::CompositorStage(osg::RenderInfo& info, osgUtil::RenderStage& of
 Channels CompositorStage::channels() const {
     if (_channels) return *_channels;
     _channels = writtenChannels(leaves);
-    if (!_channels->red && !_channels->green && !_channels->blue) {
-        const osg::ColorMask* mask = stage.getColorMask();
-        _channels->red = !mask || mask->getRedMask();
-        _channels->green = !mask || mask->getGreenMask();
-        _channels->blue = !mask || mask->getBlueMask();
-    }
+    if (!_channels->red && !_channels->green && !_channels->blue) openBy(stage.getColorMask(), *_channels);
     return *_channels;
 }
 

@@ -314,15 +314,19 @@ bool readsBack(const std::vector<DrawnLeaf>& leaves) {
     return isModeOn(leaves, GL_BLEND) || isModeOn(leaves, GL_COLOR_LOGIC_OP);
 }
 
+bool openBy(const osg::ColorMask* mask, Channels& channels) {
+    channels.red = channels.red || !mask || mask->getRedMask();
+    channels.green = channels.green || !mask || mask->getGreenMask();
+    channels.blue = channels.blue || !mask || mask->getBlueMask();
+    return channels.red || channels.green || channels.blue;
+}
+
 Channels writtenChannels(const std::vector<DrawnLeaf>& leaves) {
     Channels written;
     std::set<const osgUtil::StateGraph*> seen;
     for (const DrawnLeaf& entry : leaves) {
         if (!seen.insert(entry.leaf->_parent).second) continue;
-        const auto* mask = resolved<osg::ColorMask>(entry.leaf->_parent, osg::StateAttribute::COLORMASK);
-        written.red = written.red || !mask || mask->getRedMask();
-        written.green = written.green || !mask || mask->getGreenMask();
-        written.blue = written.blue || !mask || mask->getBlueMask();
+        openBy(resolved<osg::ColorMask>(entry.leaf->_parent, osg::StateAttribute::COLORMASK), written);
     }
     written.encoded = isModeOn(leaves, framebufferSrgb);
     return written;

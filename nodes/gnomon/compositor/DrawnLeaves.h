@@ -5,6 +5,7 @@
 #include <gnomon/Selection.h>
 #include <gnomon/geometry/ScreenBounds.h>
 
+#include <osg/ColorMask>
 #include <osg/StateAttribute>
 #include <osgUtil/RenderLeaf>
 #include <osgUtil/RenderStage>
@@ -76,6 +77,9 @@ bool isModeOn(const std::vector<DrawnLeaf>& leaves, osg::StateAttribute::GLMode 
 
 /// True if any of them is drawn by what stands there: blends, or has a logic operation.
 bool readsBack(const std::vector<DrawnLeaf>& leaves);
+
+/// Opens the channels that a mask leaves open; all without one. @return whether any is open.
+bool openBy(const osg::ColorMask* mask, Channels& channels);
 
 /// The colour channels that any of the leaves writes: fewer than all in anaglyph stereo, for one.
 Channels writtenChannels(const std::vector<DrawnLeaf>& leaves);

@@ -419,7 +419,7 @@ void LeafReplay::layColorOver() {
         return glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     case Color::Factor:
         blend(GL_ZERO, GL_CONSTANT_COLOR);
-        openIfClosed();
+        keepAlpha();
         return setBlendColor(_overlay.factor);
     case Color::Mix:
         blend(GL_ONE_MINUS_DST_ALPHA, GL_DST_ALPHA);
@@ -431,21 +431,11 @@ void LeafReplay::layColorOver() {
 }
 
 /// Where a leaf writes no colour, what others have drawn shows, and is darkened.
-void LeafReplay::openIfClosed() {
-    const auto* mask =
-        static_cast<const osg::ColorMask*>(_state.getLastAppliedAttribute(osg::StateAttribute::COLORMASK));
-    if (!mask || mask->getRedMask() || mask->getGreenMask() || mask->getBlueMask()) return;
-    const Channels written = _draw.channels();
-    glColorMask(written.red, written.green, written.blue, GL_FALSE);
-}
-
 void LeafReplay::keepAlpha() {
-    const auto* mask =
-        static_cast<const osg::ColorMask*>(_state.getLastAppliedAttribute(osg::StateAttribute::COLORMASK));
-    if (mask)
-        glColorMask(mask->getRedMask(), mask->getGreenMask(), mask->getBlueMask(), GL_FALSE);
-    else
-        glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);
+    Channels open;
+    const auto* mask = _state.getLastAppliedAttribute(osg::StateAttribute::COLORMASK);
+    if (!openBy(static_cast<const osg::ColorMask*>(mask), open)) open = _draw.channels();
+    glColorMask(open.red, open.green, open.blue, GL_FALSE);
 }
 
 void LeafReplay::setBlendColor(float grey) { _state.get<osg::GLExtensions>()->glBlendColor(grey, grey, grey, 1.0f); }

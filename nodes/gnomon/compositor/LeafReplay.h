@@ -118,7 +118,6 @@ private:
     void forgetAlpha();
     void layMirrorOver();
     void layColorOver();
-    void openIfClosed();
     void keepAlpha();
     void setBlendColor(float grey);
     void darken(unsigned lights);
