@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <deque>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <memory>
@@ -190,9 +189,12 @@ ViewFrame viewOf(ViewFrame view, const TechniqueInStage& asked, const ReceiverPa
     view.kind = part.late                  ? ReceiverKind::Late
                 : part.placement.isPlain() ? ReceiverKind::Usual
                                            : ReceiverKind::Displaced;
-    const auto isDepthless = [&asked](const auto* leaf) { return asked.drawn.depthless.count(leaf) > 0; };
-    if (!asked.drawn.depthless.empty())
-        std::remove_copy_if(part.leaves.begin(), part.leaves.end(), std::back_inserter(view.seen), isDepthless);
+    const osgUtil::StateGraph* graph = nullptr; // leaves of one state mostly follow each other
+    bool written = true;
+    for (const osgUtil::RenderLeaf* leaf : part.leaves) {
+        if (leaf->_parent != graph) written = writesDepth(graph = leaf->_parent);
+        if (written) view.seen.push_back(leaf);
+    }
     if (view.seen.empty()) view.seen = part.leaves;
     const auto isMoved = [&asked](const auto* leaf) { return asked.drawn.programs.moves(*leaf); };
     view.movesReceivers = asked.drawn.programs.moved() && std::any_of(view.seen.begin(), view.seen.end(), isMoved);

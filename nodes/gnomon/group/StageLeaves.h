@@ -121,20 +121,14 @@ struct StageLeaves {
     LateReceivers late;
     ProgramCauses programs;
     std::map<const osgUtil::RenderLeaf*, DepthPlacement> displaced; ///< those whose depths are not the projection's.
-    std::set<const osgUtil::RenderLeaf*> depthless; ///< those that write none: no shadow is found on them.
 
 private:
     void findDisplaced(const std::vector<DrawnLeaf>& leaves) {
         const osgUtil::StateGraph* graph = nullptr; // leaves of one state mostly follow each other
         DepthPlacement placement;
-        bool written = true;
         for (const DrawnLeaf& entry : leaves) {
-            if (entry.leaf->_parent != graph) {
-                placement = depthPlacementOf(graph = entry.leaf->_parent);
-                written = writesDepth(graph);
-            }
+            if (entry.leaf->_parent != graph) placement = depthPlacementOf(graph = entry.leaf->_parent);
             if (!placement.isPlain()) displaced[entry.leaf] = placement;
-            if (!written) depthless.insert(entry.leaf);
         }
     }
 };
