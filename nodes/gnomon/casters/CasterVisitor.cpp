@@ -264,16 +264,12 @@ void CasterVisitor::visitLevels(osg::LOD& lod) {
         for (unsigned i = 0; i < usableChildren(lod); ++i)
             if (isShownAt(lod, i, finest)) lod.getChild(i)->accept(*this);
     } else if (lod.getRangeMode() == osg::LOD::PIXEL_SIZE_ON_SCREEN && _view->viewport) {
-        visitPixelLevels(lod);
+        enterCullStack(eyeFromHere());
+        traverse(lod);
+        leaveCullStack();
     } else {
         traverse(lod);
     }
-}
-
-void CasterVisitor::visitPixelLevels(osg::LOD& lod) {
-    enterCullStack(eyeFromHere());
-    traverse(lod);
-    leaveCullStack();
 }
 
 void CasterVisitor::enterCullStack(const osg::Matrixd& eyeFromLocal) {

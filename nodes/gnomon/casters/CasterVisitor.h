@@ -102,7 +102,6 @@ private:
     bool mayMatterAbove();
     bool goesTheOnlyWays(osg::Node& node);
     void visitLevels(osg::LOD& lod);
-    void visitPixelLevels(osg::LOD& lod);
     void enterCullStack(const osg::Matrixd& eyeFromLocal);
     void leaveCullStack();
     void visitTurning(osg::AutoTransform& transform);
