@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Framebuffer objects of several colour attachments: lit colours in the first, something else in the next.
 #include "GlComplaints.h"
-
-#include <gtest/gtest.h>
-#include <support/Scene.h>
+#include "TwoGrounds.h"
 
 #include <osg/BlendFunc>
 #include <osg/Program>
@@ -22,10 +20,9 @@ const View from = perspective({-5.0, -9.0, 7.0}, {0.0, 0.0, 0.5}, 240, 180);
 osg::ref_ptr<osg::Program> colorsAndNormals() {
     osg::ref_ptr<osg::Program> program = new osg::Program;
     program->addShader(new osg::Shader(
-        osg::Shader::VERTEX, "varying vec3 n; varying vec4 color;\n"
-                             "void main() { gl_Position = ftransform(); n = normalize(gl_NormalMatrix * gl_Normal);\n"
-                             "  float c = max(dot(n, normalize(gl_LightSource[0].position.xyz)), 0.0);\n"
-                             "  color = vec4(0.3, 0.2, 0.1, 1.0) + c * gl_LightSource[0].diffuse; }"));
+        osg::Shader::VERTEX, litColor + std::string("varying vec3 n; varying vec4 color;\n"
+                                                    "void main() { gl_Position = ftransform(); color = litColor();\n"
+                                                    "  n = normalize(gl_NormalMatrix * gl_Normal); }")));
     program->addShader(new osg::Shader(osg::Shader::FRAGMENT, "varying vec3 n; varying vec4 color;\n"
                                                               "void main() { gl_FragData[0] = vec4(color.rgb, 0.5);\n"
                                                               "  gl_FragData[1] = vec4(0.5 * n + 0.5, 0.5); }"));
@@ -70,12 +67,10 @@ Attachments draw(const std::string& spec, bool blends) {
 std::vector<std::uint32_t> layers(const std::string& spec, std::vector<std::string>& causes) {
     Scene scene = groundScene({box({-1.0, -1.0, 0.5}, {1.0, 1.0, 2.0})}, 4.0, {1.0, 0.3, 1.2, 0.0});
     osg::ref_ptr<osg::Program> twice = new osg::Program;
-    twice->addShader(new osg::Shader(osg::Shader::VERTEX,
-                                     "#version 150 compatibility\nout vec4 lit;\n"
-                                     "void main() { gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex;\n"
-                                     "  vec3 n = normalize(gl_NormalMatrix * gl_Normal);\n"
-                                     "  float c = max(dot(n, normalize(gl_LightSource[0].position.xyz)), 0.0);\n"
-                                     "  lit = vec4(0.3) + c * gl_LightSource[0].diffuse; }"));
+    twice->addShader(new osg::Shader(
+        osg::Shader::VERTEX,
+        std::string("#version 150 compatibility\nout vec4 lit;\n") + litColor +
+            "void main() { gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex; lit = litColor(); }"));
     twice->addShader(
         new osg::Shader(osg::Shader::GEOMETRY,
                         "#version 150 compatibility\nlayout(triangles) in; in vec4 lit[]; out vec4 color;\n"

@@ -45,13 +45,10 @@ void texture(Scene& scene) {
 
 void lightByProgram(osg::StateSet& set) {
     osg::ref_ptr<osg::Program> program = new osg::Program;
-    program->addShader(new osg::Shader(osg::Shader::VERTEX,
-                                       "varying vec4 color;\n"
-                                       "void main() { gl_Position = ftransform();\n"
-                                       "  vec4 eye = gl_ModelViewMatrix * gl_Vertex, l = gl_LightSource[0].position;\n"
-                                       "  vec3 n = normalize(gl_NormalMatrix * gl_Normal);\n"
-                                       "  float c = max(dot(n, normalize(l.xyz - l.w * eye.xyz)), 0.0);\n"
-                                       "  color = vec4(0.3, 0.2, 0.1, 1.0) + c * gl_LightSource[0].diffuse; }"));
+    program->addShader(
+        new osg::Shader(osg::Shader::VERTEX,
+                        litColor + std::string("varying vec4 color;\n"
+                                               "void main() { gl_Position = ftransform(); color = litColor(); }")));
     program->addShader(
         new osg::Shader(osg::Shader::FRAGMENT, "varying vec4 color; void main() { gl_FragColor = color; }"));
     set.setAttribute(program, overriding);

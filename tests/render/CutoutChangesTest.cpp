@@ -22,6 +22,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 using namespace test;
 using On = osg::StateAttribute;
@@ -115,6 +116,10 @@ struct Plate {
     std::unique_ptr<Camera> camera;
 };
 
+std::vector<osg::ref_ptr<gnomon::ShadowTechnique>> mapAndAuto() {
+    return {new gnomon::ShadowMapTechnique, new gnomon::AutoShadowTechnique};
+}
+
 /// Fills a texture by itself, as streams do.
 class Filling : public osg::Texture2D::SubloadCallback {
 public:
@@ -181,9 +186,8 @@ TEST(CutoutChanges, OfColoursUnderAProgramAreSeenInTheNextFrame) {
 }
 
 TEST(CutoutChanges, ByAClockAreSeenInEveryFrame) {
-    for (const bool mapped : {true, false}) {
-        Plate plate(mapped ? static_cast<gnomon::ShadowTechnique*>(new gnomon::ShadowMapTechnique)
-                           : new gnomon::AutoShadowTechnique);
+    for (const osg::ref_ptr<gnomon::ShadowTechnique>& technique : mapAndAuto()) {
+        Plate plate(technique);
         plate.state().setAttributeAndModes(fragmentProgram(
             "uniform float osg_SimulationTime; void main() { if (gl_TexCoord[0].x > osg_SimulationTime) "
             "discard; gl_FragColor = vec4(1.0); }"));
@@ -194,9 +198,8 @@ TEST(CutoutChanges, ByAClockAreSeenInEveryFrame) {
 
 /// Half of it by a pattern of the picture's pixels, of which the map has others: its shadow would be a pattern, too, that crawls.
 TEST(CutoutChanges, ByThePicturesPixelsCastNothingButAllOfItAndAreNamed) {
-    for (const bool mapped : {true, false}) {
-        Plate plate(mapped ? static_cast<gnomon::ShadowTechnique*>(new gnomon::ShadowMapTechnique)
-                           : new gnomon::AutoShadowTechnique);
+    for (const osg::ref_ptr<gnomon::ShadowTechnique>& technique : mapAndAuto()) {
+        Plate plate(technique);
         plate.state().setAttributeAndModes(fragmentProgram(
             "void main() { if (mod(floor(gl_FragCoord.x) + floor(gl_FragCoord.y), 2.0) > 0.5) discard; gl_FragColor = "
             "vec4(1.0); }"));

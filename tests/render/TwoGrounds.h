@@ -34,6 +34,13 @@ std::vector<TwoGrounds> allTwoGrounds();
 std::ostream& operator<<(std::ostream& out, const TwoGrounds& given);
 std::string nameOf(const TwoGrounds& given);
 
+/// GLSL of a function that gives a vertex the colour which light 0 makes of it.
+constexpr const char* litColor =
+    "vec4 litColor() {\n"
+    "  vec4 eye = gl_ModelViewMatrix * gl_Vertex, l = gl_LightSource[0].position;\n"
+    "  float c = max(dot(normalize(gl_NormalMatrix * gl_Normal), normalize(l.xyz - l.w * eye.xyz)), 0.0);\n"
+    "  return vec4(0.3, 0.2, 0.1, 1.0) + c * gl_LightSource[0].diffuse; }\n";
+
 /// What is done to a scene or its viewer, alike with and without Gnomon.
 using Change = std::function<void(Scene&)>;
 using Setting = std::function<void(Camera&)>;
