@@ -66,6 +66,16 @@ private:
     const bool _toAll;
 };
 
+/// Counts the visits of visitors that are no traversal of the viewer's.
+class Counted : public osg::Group {
+public:
+    void traverse(osg::NodeVisitor& visitor) override {
+        visits += visitor.getVisitorType() == osg::NodeVisitor::NODE_VISITOR;
+        osg::Group::traverse(visitor);
+    }
+    int visits = 0;
+};
+
 /// Puts a node that hands it on in the place of the content's child of that name.
 osg::ref_ptr<osg::Node> handOn(Scene& scene, const std::string& name, bool toAll = true) {
     const osg::ref_ptr<osg::Node> child = find(*scene.root, name), hands = new Hands(child, toAll);
@@ -95,6 +105,33 @@ TEST(HostileGraph, ANamedReceiverThatHandsOnWhatItDrawsIsShadowedAsItsChildWould
             EXPECT_EQ(picture(spec, true, naming).different(expected), 0) << spec << ", " << naming;
             if (naming < 2) EXPECT_GT(expected.count(shadowedGround), 100) << spec;
         }
+}
+
+TEST(HostileGraph, AReceiverOfWhichAPartStandsElsewhereIsVisitedOnTheWayToThatPartAlone) {
+    const auto picture = [](bool shared) {
+        Scene scene = groundScene({box({-1.0, -1.0, 1.0}, {1.0, 1.0, 2.0})});
+        const osg::ref_ptr<osg::Node> ground = find(*scene.root, "ground"), plate = node(square(1.0, 0.01));
+        const osg::ref_ptr<osg::Group> receiver = new osg::Group;
+        const osg::ref_ptr<Counted> rest = new Counted;
+        scene.content->replaceChild(ground, receiver);
+        receiver->addChild(rest);
+        rest->addChild(ground);
+        receiver->addChild(plate);
+        const osg::ref_ptr<osg::MatrixTransform> beside =
+            new osg::MatrixTransform(osg::Matrixd::translate(-1.5, 0.0, 0.1));
+        beside->addChild(shared ? plate.get() : osg::clone(plate.get(), osg::CopyOp::DEEP_COPY_ALL));
+        scene.content->addChild(beside);
+        scene.addShadow("map");
+        scene.group->setCasters({find(*scene.root, "caster")});
+        dynamic_cast<gnomon::ShadowTechnique&>(*scene.group->getChild(1)).setReceiver({receiver});
+        Camera camera(scene.root, slanted);
+        camera.frame();
+        rest->visits = 0;
+        const Picture drawn = camera.frame();
+        EXPECT_EQ(rest->visits, 0) << shared;
+        return drawn;
+    };
+    EXPECT_EQ(picture(true).different(picture(false)), 0);
 }
 
 TEST(HostileGraph, ACasterThatHandsOnWhatItDrawsCastsWhereItIsNamed) {

@@ -56,6 +56,11 @@ void addTops(const osg::Node& node, Nodes& tops) {
     for (const osg::Group* parent : node.getParents()) addTops(*parent, tops);
 }
 
+void addAbove(const osg::Node& node, Nodes& above) {
+    if (!above.insert(&node).second) return;
+    for (const osg::Group* parent : node.getParents()) addAbove(*parent, above);
+}
+
 /// What lies under a selection, and where the scene begins.
 struct Part {
     Part(const Selection& selection, const osg::Node& scene) : mask(selection.mask) {
@@ -70,6 +75,9 @@ struct Part {
 /// Whether a node can be reached under a selection: by some way from above, by all ways.
 struct Ways {
     bool some = false, all = true;
+    bool foreign = false; ///< One begins at a node that is not of the scene: any node may hand it on.
+
+    bool isOpen() const { return some && !all; }
 };
 
 /// Tells what lies under a selection, from below. Looks at each node once.
@@ -85,13 +93,14 @@ public:
         if (isRoot)
             ways = {true, true};
         else if (node.getNumParents() == 0 && _part.tops.count(&node) == 0)
-            ways = {true, false}; // any node may hand it on
+            ways = {true, false, true};
         else if (node.getNumParents() == 0)
             ways = {_part.roots.empty(), _part.roots.empty()};
         for (unsigned i = 0; !isRoot && i < node.getNumParents(); ++i) {
             const Ways way = (*this)(*node.getParent(i));
             ways.some = ways.some || way.some;
             ways.all = ways.all && way.all;
+            ways.foreign = ways.foreign || way.foreign;
         }
         return _ways[&node] = ways;
     }
@@ -107,9 +116,14 @@ private:
 /// Cost    a visit of what is under the selected nodes; of the whole scene if none is named, or one is handed on itself.
 class FoundBelow : public osg::NodeVisitor {
 public:
+    /// @param only   visits these nodes alone; null: all. Must outlive this.
     /// @param first  one drawable is enough.
-    FoundBelow(const Part& part, const osg::Matrixd& eyeFromWorld, bool first = false)
-        : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _part(part), _first(first), _eyeFromWorld(eyeFromWorld) {
+    FoundBelow(const Part& part, const osg::Matrixd& eyeFromWorld, const Nodes* only = nullptr, bool first = false)
+        : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN),
+          _part(part),
+          _only(only),
+          _first(first),
+          _eyeFromWorld(eyeFromWorld) {
         setNodeMaskOverride(~0u);
         Nodes above;
         for (const osg::Node* root : part.roots) addTops(*root, above);
@@ -124,6 +138,7 @@ public:
     }
 
     void apply(osg::Node& node) override {
+        if (!isWanted(node)) return;
         const bool wasUnder = _isUnder;
         _isUnder = wasUnder || _part.roots.empty() || _part.roots.count(&node) > 0;
         const bool passes = !_isUnder || (node.getNodeMask() & _part.mask);
@@ -134,6 +149,7 @@ public:
     }
     void apply(osg::Drawable& drawable) override { apply(static_cast<osg::Node&>(drawable)); }
     void apply(osg::Transform& transform) override {
+        if (!isWanted(transform)) return;
         const osg::Matrixd above = _eyeFromHere;
         const osg::Camera* camera = transform.asCamera();
         if (camera && (camera->getReferenceFrame() == osg::Transform::ABSOLUTE_RF || camera->getNumParents() == 0))
@@ -147,7 +163,10 @@ public:
     DrawablePlaces found;
 
 private:
+    bool isWanted(const osg::Node& node) const { return !_only || _only->count(&node) > 0; }
+
     const Part& _part;
+    const Nodes* const _only;
     const bool _first;
     const osg::Matrixd _eyeFromWorld;
     osg::Matrixd _eyeFromHere;
@@ -256,15 +275,24 @@ LeafSet receiversAmong(const std::vector<DrawnLeaf>& leaves, const Selection& re
                        const osg::Matrixd& eyeFromWorld, const osg::Node& scene) {
     const Part part(receiver, scene);
     WaysUnder waysUnder(part);
-    osg::ref_ptr<FoundBelow> below; // null until it is asked for
     LeafSet result;
+    std::vector<const osgUtil::RenderLeaf*> open;
+    Nodes above; // what leads to these
+    bool foreign = false;
     for (const DrawnLeaf& entry : leaves) {
         const Ways ways = waysUnder(*entry.leaf->_drawable);
-        const bool isOpen = ways.some && !ways.all;
-        if (isOpen && !below) below = new FoundBelow(part, eyeFromWorld);
-        if (isOpen ? below->found.hasAt(*entry.leaf->_drawable, modelviewOf(*entry.leaf)) : ways.some)
-            result.insert(entry.leaf);
+        if (!ways.isOpen()) {
+            if (ways.some) result.insert(entry.leaf);
+            continue;
+        }
+        open.push_back(entry.leaf);
+        addAbove(*entry.leaf->_drawable, above);
+        foreign = foreign || ways.foreign;
     }
+    if (open.empty()) return result;
+    const osg::ref_ptr<FoundBelow> below = new FoundBelow(part, eyeFromWorld, foreign ? nullptr : &above);
+    for (const osgUtil::RenderLeaf* leaf : open)
+        if (below->found.hasAt(*leaf->_drawable, modelviewOf(*leaf))) result.insert(leaf);
     return result;
 }
 
@@ -276,9 +304,9 @@ drawablesUnder(const Selection& selection, const std::vector<const osg::Drawable
     std::set<const osg::Drawable*> result;
     for (const osg::Drawable* drawable : drawables) {
         const Ways ways = waysUnder(*drawable);
-        const bool isOpen = ways.some && !ways.all;
-        if (isOpen && !below) below = new FoundBelow(part, {});
-        if (isOpen ? below->found.has(*drawable) : ways.some) result.insert(drawable);
+        const bool isAsked = ways.isOpen() && ways.foreign;
+        if (isAsked && !below) below = new FoundBelow(part, {});
+        if (isAsked ? below->found.has(*drawable) : ways.some) result.insert(drawable);
     }
     return result;
 }
@@ -294,7 +322,7 @@ std::string whyMissing(const Selection& selection, const char* role, const osg::
                "' is not in this scene graph. Add it to the scene.";
     if (selection.node && !mayBeSeen(*selection.node, stage.getCamera())) return "";
     const Part part(selection, from);
-    const osg::ref_ptr<FoundBelow> below = new FoundBelow(part, {}, true);
+    const osg::ref_ptr<FoundBelow> below = new FoundBelow(part, {}, nullptr, true);
     if (!below->found.empty()) return "";
     const std::string name = selection.node ? " '" + nameOf(*selection.node) + "'" : "";
     return "nothing that is drawn is found under the " + (role + name) +
