@@ -5,7 +5,6 @@
 #include <gnomon/group/StageLeaves.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace gnomon {
