@@ -45,22 +45,36 @@ public:
     std::vector<osg::ref_ptr<osg::LightSource>> found;
 };
 
-constexpr double hair = 1e-4;  // of the scene's radius: a level underside does not fight with the ground
-constexpr unsigned cells = 16; // a side: OpenGL lights vertices, and a lamp's light varies over the ground
+constexpr double hair = 1e-4;      // of the scene's radius: a level underside does not fight with the ground
+constexpr unsigned cells = 16;     // a side: OpenGL lights vertices, and a lamp's light varies over the ground
+constexpr double fineRadii = 4.0;  // of the scene: side of the square that has these cells; they grow beyond
+constexpr double growth = 1.5;     // of the distance from the middle, from line to line beyond
+constexpr double leastFine = 1e-6; // of the side
 
-osg::ref_ptr<osg::Vec3Array> gridVertices(double side) {
+/// Where the lines of the grid lie on either axis, in order.
+std::vector<double> gridLines(double side, double fine) {
+    std::vector<double> lines;
+    const double middle = std::clamp(fine, leastFine * side, side);
+    for (unsigned i = 0; i <= cells; ++i) lines.push_back((double(i) / cells - 0.5) * middle);
+    while (lines.back() < 0.499 * side) {
+        const double next = std::min(lines.back() * growth, 0.5 * side);
+        lines.push_back(next);
+        lines.insert(lines.begin(), -next);
+    }
+    return lines;
+}
+
+osg::ref_ptr<osg::Vec3Array> gridVertices(const std::vector<double>& lines) {
     osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
-    for (unsigned j = 0; j <= cells; ++j)
-        for (unsigned i = 0; i <= cells; ++i)
-            vertices->push_back(osg::Vec3d(double(i) / cells - 0.5, double(j) / cells - 0.5, 0.0) * side);
+    for (const double y : lines)
+        for (const double x : lines) vertices->push_back(osg::Vec3d(x, y, 0.0));
     return vertices;
 }
 
-osg::ref_ptr<osg::DrawElementsUShort> gridTriangles() {
+osg::ref_ptr<osg::DrawElementsUShort> gridTriangles(unsigned row) {
     osg::ref_ptr<osg::DrawElementsUShort> triangles = new osg::DrawElementsUShort(GL_TRIANGLES);
-    const unsigned row = cells + 1;
-    for (unsigned j = 0; j < cells; ++j)
-        for (unsigned i = 0; i < cells; ++i)
+    for (unsigned j = 0; j + 1 < row; ++j)
+        for (unsigned i = 0; i + 1 < row; ++i)
             for (const unsigned corner : {0u, 1u, row + 1, 0u, row + 1, row})
                 triangles->push_back(static_cast<GLushort>(j * row + i + corner));
     return triangles;
@@ -74,13 +88,13 @@ osg::ref_ptr<osg::Material> mattWhite() {
     return material;
 }
 
-osg::ref_ptr<osg::Geometry> grid(double side) {
+osg::ref_ptr<osg::Geometry> grid(const std::vector<double>& lines) {
     osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
     osg::ref_ptr<osg::Vec3Array> normal = new osg::Vec3Array(osg::Array::BIND_OVERALL);
     normal->push_back(osg::Vec3(0, 0, 1));
-    geometry->setVertexArray(gridVertices(side));
+    geometry->setVertexArray(gridVertices(lines));
     geometry->setNormalArray(normal);
-    geometry->addPrimitiveSet(gridTriangles());
+    geometry->addPrimitiveSet(gridTriangles(static_cast<unsigned>(lines.size())));
     geometry->getOrCreateStateSet()->setAttributeAndModes(mattWhite());
     return geometry;
 }
@@ -97,7 +111,7 @@ osg::ref_ptr<osg::Node> makeGround(const osg::BoundingBoxd& scene, double side) 
     osg::ref_ptr<osg::MatrixTransform> place =
         new osg::MatrixTransform(osg::Matrixd::translate(centre.x(), centre.y(), scene.zMin() - hair * scene.radius()));
     osg::ref_ptr<osg::Geode> geode = new osg::Geode;
-    geode->addDrawable(grid(side));
+    geode->addDrawable(grid(gridLines(side, fineRadii * scene.radius())));
     place->addChild(geode);
     place->setName("ground");
     return place;
