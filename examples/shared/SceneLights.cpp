@@ -10,7 +10,9 @@
 namespace gnomon::examples {
 namespace {
 
-constexpr double sunAzimuth = 135.0, sunElevation = 45.0; // degrees
+constexpr double sunAzimuth = 135.0, sunElevation = 45.0;  // degrees
+constexpr double fillElevation = 30.0, leastApart = 105.0; // degrees; apart from the first light, seen from above
+constexpr int mostLights = 8;                              // OpenGL's
 
 bool isLamp(const osg::Vec4d& place) { return std::abs(place.w()) > 1e-9; }
 
@@ -38,6 +40,17 @@ osg::Vec4 grey(double level) {
     return {l, l, l, 1.0f};
 }
 
+double azimuthOf(const osg::Vec3d& way) { return osg::RadiansToDegrees(std::atan2(way.x(), way.y())); }
+
+/// What of a light's diffuse part a level ground in the distance gets.
+double farShare(const osg::Vec4d& place) {
+    if (isLamp(place)) return 0.0;
+    const osg::Vec3d way(place.x(), place.y(), place.z());
+    return std::max(way.z() / way.length(), 0.0);
+}
+
+osg::Vec3d rgb(const osg::Vec4& colour) { return {colour.r(), colour.g(), colour.b()}; }
+
 } // namespace
 
 std::vector<osg::Vec4d> SceneLights::places() const {
@@ -56,19 +69,31 @@ void standLight(osg::MatrixTransform& mount, osg::Light& light, const osg::Vec4d
     light.setPosition(isLamp(place) ? osg::Vec4(0, 0, 0, 1) : osg::Vec4(place));
 }
 
-SceneLights::SceneLights(const ViewOptions& options, osg::Group& root, ShadowCasterGroup& group)
-    : _group(&group), _scene(lightSourcesIn(group)) {
+SceneLights::SceneLights(const ViewOptions& options, osg::Group& root, ShadowCasterGroup& group,
+                         const osg::Vec3d& centre)
+    : _group(&group),
+      _scene(lightSourcesIn(group)),
+      _viewAzimuth(options.eye ? azimuthOf(*options.eye - options.center.value_or(centre)) : framingAzimuth) {
     for (const osg::Vec4d& place : options.lights) add(place, root);
     if (count() == 0 && !options.keepLights) add(sunAt(sunAzimuth, sunElevation), root);
     if (!_own.empty() || !options.keepLights) root.getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::ON);
     for (const Own& own : _own) own.source->setStateSetModes(*root.getOrCreateStateSet(), osg::StateAttribute::ON);
-    colour(options);
-    if (options.ambient) {
-        osg::ref_ptr<osg::LightModel> model = new osg::LightModel;
-        model->setAmbientIntensity(grey(*options.ambient));
-        root.getOrCreateStateSet()->setAttributeAndModes(model);
-    }
+    colour(options, root);
+    standFill(centre);
     tellGroup();
+}
+
+osg::Vec3d SceneLights::farGround() const {
+    osg::Vec3d sum(_ambient, _ambient, _ambient);
+    const auto addLight = [&sum](const osg::Light& light, const osg::Vec4d& place) {
+        sum += rgb(light.getAmbient()) + rgb(light.getDiffuse()) * farShare(place);
+    };
+    const std::vector<osg::Vec4d> where = places();
+    for (std::size_t i = 0; i < where.size(); ++i)
+        addLight(*(i < _own.size() ? _own[i].source : _scene[i - _own.size()])->getLight(), where[i]);
+    if (_fill) addLight(*_fill->getLight(), _fill->getLight()->getPosition());
+    for (int i = 0; i < 3; ++i) sum[i] = std::min(sum[i], 1.0);
+    return sum;
 }
 
 void SceneLights::shineOn(osg::Node& node) const {
@@ -79,8 +104,7 @@ void SceneLights::shineOn(osg::Node& node) const {
 std::optional<SceneLights::Direction> SceneLights::given(const osg::Vec3d& seenFrom) const {
     if (_own.empty()) return std::nullopt;
     const osg::Vec3d way = wayTo(_own.front().given, seenFrom);
-    return Direction{osg::RadiansToDegrees(std::atan2(way.x(), way.y())),
-                     osg::RadiansToDegrees(std::atan2(way.z(), std::hypot(way.x(), way.y())))};
+    return Direction{azimuthOf(way), osg::RadiansToDegrees(std::atan2(way.z(), std::hypot(way.x(), way.y())))};
 }
 
 void SceneLights::move(const Direction& by, const osg::Vec3d& centre) {
@@ -88,6 +112,7 @@ void SceneLights::move(const Direction& by, const osg::Vec3d& centre) {
         own.place = moved(own.given, by, centre);
         standLight(*own.mount, *own.source->getLight(), own.place);
     }
+    standFill(centre);
     tellGroup();
 }
 
@@ -102,6 +127,25 @@ void SceneLights::add(const osg::Vec4d& place, osg::Group& root) {
     _own.push_back(own);
 }
 
+void SceneLights::addFill(double diffuse, osg::Group& root) {
+    _fill = new osg::LightSource;
+    osg::Light& light = *new osg::Light(static_cast<unsigned>(freeNumber()));
+    _fill->setLight(&light);
+    light.setAmbient(grey(0.0));
+    light.setDiffuse(grey(diffuse));
+    light.setSpecular(grey(0.0));
+    _fill->setStateSetModes(*root.getOrCreateStateSet(), osg::StateAttribute::ON);
+    root.addChild(_fill);
+}
+
+void SceneLights::standFill(const osg::Vec3d& centre) {
+    if (!_fill) return;
+    const double first = azimuthOf(wayTo(places().front(), centre));
+    const double apart = std::remainder(_viewAzimuth - first, 360.0);
+    const double azimuth = first + std::copysign(std::max(std::abs(apart), leastApart), apart);
+    _fill->getLight()->setPosition(osg::Vec4(sunAt(azimuth, fillElevation)));
+}
+
 int SceneLights::freeNumber() const {
     const auto uses = [](const osg::LightSource& source, int number) {
         return source.getLight()->getLightNum() == number;
@@ -112,19 +156,32 @@ int SceneLights::freeNumber() const {
                std::any_of(_own.begin(), _own.end(), [&](const Own& own) { return uses(*own.source, number); });
     };
     while (taken()) ++number;
-    if (number > 7)
+    if (number >= mostLights)
         throw std::invalid_argument(
             "there are more than 8 lights, counting those of the scene. Allowed: 8, as OpenGL has.");
     return number;
 }
 
-void SceneLights::colour(const ViewOptions& options) {
+void SceneLights::colour(const ViewOptions& options, osg::Group& root) {
+    std::optional<double> ambient = options.ambient, diffuse = options.diffuse, fill = options.fill;
+    if (options.lighting && _scene.empty()) {
+        if (!ambient) ambient = options.lighting->ambient;
+        if (!diffuse) diffuse = options.lighting->diffuse / double(_own.size());
+        if (!fill && count() < mostLights) fill = options.lighting->fill;
+    }
+    if (fill.value_or(0.0) > 0.0 && count() > 0) addFill(*fill, root);
+    if (ambient) {
+        osg::ref_ptr<osg::LightModel> model = new osg::LightModel;
+        model->setAmbientIntensity(grey(*ambient));
+        root.getOrCreateStateSet()->setAttributeAndModes(model);
+        _ambient = *ambient;
+    }
     std::vector<osg::ref_ptr<osg::LightSource>> all = _scene;
     for (const Own& own : _own) all.push_back(own.source);
     for (const osg::ref_ptr<osg::LightSource>& source : all) {
         osg::Light& light = *source->getLight();
-        if (options.ambient) light.setAmbient(grey(0.0));
-        if (options.diffuse) light.setDiffuse(grey(*options.diffuse));
+        if (ambient) light.setAmbient(grey(0.0));
+        if (diffuse) light.setDiffuse(grey(*diffuse));
     }
 }
 

@@ -13,6 +13,8 @@
 
 namespace gnomon::examples {
 
+constexpr double framingAzimuth = 215.0; ///< degrees, of a camera without a place, seen from the scene.
+
 /// Puts a light, which shines from below `mount`, at a homogeneous place of the world: a lamp at the origin of its mount,
 /// which is in double; a sun's direction needs no more than float.
 void standLight(osg::MatrixTransform& mount, osg::Light& light, const osg::Vec4d& place);
@@ -22,8 +24,8 @@ void standLight(osg::MatrixTransform& mount, osg::Light& light, const osg::Vec4d
 class SceneLights {
 public:
     /// Adds LightSources to `root`, which must be above `group` without a transform between, and tells `group` of all
-    /// lights.
-    SceneLights(const ViewOptions& options, osg::Group& root, ShadowCasterGroup& group);
+    /// lights. @param centre  of the scene, world.
+    SceneLights(const ViewOptions& options, osg::Group& root, ShadowCasterGroup& group, const osg::Vec3d& centre);
 
     /// Switches the scene's own lights on for a node beside the scene, which may have them on for itself only.
     void shineOn(osg::Node& node) const;
@@ -43,8 +45,10 @@ public:
     void turn(double degrees);
 
     std::size_t count() const { return _own.size() + _scene.size(); }
-    /// Where all of them are now, homogeneous, world.
+    /// Where all of them that cast shadows are now, homogeneous, world.
     std::vector<osg::Vec4d> places() const;
+    /// Colour of a white level ground in the distance, 0 to 1: suns light it, lamps do not.
+    osg::Vec3d farGround() const;
 
 private:
     struct Own {
@@ -54,13 +58,18 @@ private:
     };
 
     void add(const osg::Vec4d& place, osg::Group& root);
+    void addFill(double diffuse, osg::Group& root);
+    void standFill(const osg::Vec3d& centre);
     int freeNumber() const;
-    void colour(const ViewOptions& options);
+    void colour(const ViewOptions& options, osg::Group& root);
     void tellGroup();
 
     osg::ref_ptr<ShadowCasterGroup> _group;
     std::vector<Own> _own;
     std::vector<osg::ref_ptr<osg::LightSource>> _scene;
+    osg::ref_ptr<osg::LightSource> _fill; ///< null: there is none. Casts no shadow.
+    const double _viewAzimuth;            ///< degrees, of the camera as it first stands, seen from what it looks at.
+    double _ambient = 0.1;                ///< of the scene as a whole; OSG's without an option.
 };
 
 } // namespace gnomon::examples

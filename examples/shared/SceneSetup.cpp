@@ -18,11 +18,11 @@ namespace gnomon::examples {
 namespace {
 
 constexpr double framingMargin = 1.15;    // of the scene's radius
-constexpr double framingAzimuth = 215.0;  // degrees, of the camera as seen from the scene
 constexpr double framingElevation = 30.0; // degrees
 constexpr double fittingMargin = 1.05;
 constexpr double floorHeight = 0.005; // of the scene's radius
 constexpr double floorDepth = 0.06;   // the same: a slab, or what dips into the floor
+constexpr double framedRadii = 4.0;   // of the scene: side of the square within which shadows are to be in the picture
 constexpr double widestPart = 2.0;    // of the radius of what stands on it: such a floor is a part of the model
 constexpr int raysASide = 6;
 
@@ -276,6 +276,12 @@ void SceneSetup::castAsComposed(const std::vector<ShadowSpec>& specs) {
     group->setComposite(composite);
 }
 
+osg::Vec3d SceneSetup::farColour() const {
+    const osg::Vec3d colour = lights->farGround();
+    const double mean = (colour.x() + colour.y() + colour.z()) / 3.0;
+    return hasAddedGround ? colour : osg::Vec3d(mean, mean, mean);
+}
+
 void SceneSetup::toggleComposite() {
     group->setComposite(blends() ? ShadowCasterGroup::RELIGHT : ShadowCasterGroup::BLEND);
 }
@@ -296,17 +302,22 @@ void SceneSetup::furnish(const ViewOptions& options) {
     const bool isFramed = !options.eye && !options.center;
     std::optional<double> floor;
     if ((asks && isAuto) || isFramed) floor = floorOf(scene, bounds);
-    const double side = !asks ? 0.0 : !isAuto ? std::stod(options.ground) : floor ? 0.0 : 4.0 * bounds.radius();
+    const double side = !asks     ? 0.0
+                        : !isAuto ? std::stod(options.ground)
+                        : floor   ? 0.0
+                                  : options.groundRadii * bounds.radius();
     const osg::ref_ptr<osg::Node> added = side > 0.0 ? makeGround(bounds, side) : nullptr;
+    hasAddedGround = added.valid();
     if (added) group->addChild(added);
     if (added && isAuto)
         note =
             "the scene has no floor and no node named ground, so it got a white ground; --ground none leaves it out.";
-    lights = std::make_unique<SceneLights>(options, *root, *group);
+    lights = std::make_unique<SceneLights>(options, *root, *group, bounds.center());
     if (added) lights->shineOn(*added);
     ground = lowestGround(*group, floor);
     osg::BoundingBoxd reach = bounds;
-    if (added) reach.expandBy(sceneBounds(*added));
+    if (added)
+        reach.expandBy(isAuto ? sceneBounds(*makeGround(bounds, framedRadii * bounds.radius())) : sceneBounds(*added));
     if (isFramed) framed = framedBy(scene, bounds, *lights, reach, floor);
     group->setCasters(selectCasters(options.casters, *group));
     receiver = options.receiver;
@@ -330,8 +341,7 @@ Lookout lookout(const ViewOptions& options, const SceneSetup& setup) {
 void placeCamera(osg::Camera& camera, const ViewOptions& options, const SceneSetup& setup) {
     const Lookout place = lookout(options, setup);
     camera.setViewMatrixAsLookAt(place.eye, place.center, place.up);
-    const osg::Vec3d& b = options.background;
-    camera.setClearColor(osg::Vec4(osg::Vec3(b), 1.0f));
+    camera.setClearColor(osg::Vec4(osg::Vec3(options.background.value_or(setup.farColour())), 1.0f));
     if (options.orthographic) return placeOrthographic(camera, *options.orthographic, aspectOf(options));
     if (options.zNear) camera.setComputeNearFarMode(osg::Camera::DO_NOT_COMPUTE_NEAR_FAR);
     camera.setProjectionMatrixAsPerspective(options.fovy, aspectOf(options), options.zNear.value_or(1.0),

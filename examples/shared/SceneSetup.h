@@ -29,8 +29,9 @@ struct SceneSetup {
     /// Corners of what casts and of its shadow, which a camera without a place is to show; none: all of `bounds`. World.
     std::vector<osg::Vec3d> framed;
     std::optional<double> ground; ///< its lowest height; nullopt: there is none, or nobody asked for a floor. World.
-    std::string note;             ///< what was added that nobody asked for; empty: nothing.
-    std::string receiver;         ///< for every shadow that names none itself.
+    bool hasAddedGround = false;
+    std::string note;     ///< what was added that nobody asked for; empty: nothing.
+    std::string receiver; ///< for every shadow that names none itself.
 
     /// Adds ground, lights and shadows as the options ask, for the scene as it is now. @throws as setUpScene().
     void furnish(const ViewOptions& options);
@@ -43,6 +44,9 @@ struct SceneSetup {
     void toggleComposite();
     bool blends() const { return group->getComposite() == ShadowCasterGroup::BLEND; }
 
+    /// Colour of an added ground in the distance, which ends nowhere before a background of this colour. Without such a ground
+    /// a grey as light.
+    osg::Vec3d farColour() const;
     /// Switches all shadows on or off.
     void show(bool shadows);
     /// What was added that nobody asked for, and what lowLight() says.

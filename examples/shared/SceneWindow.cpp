@@ -108,20 +108,35 @@ struct ApplyColours : public osg::Camera::DrawCallback {
     }
 };
 
+/// Keeps the background the colour of an added ground in the distance, wherever the lights are now.
+class FadingGround : public osg::NodeCallback {
+public:
+    FadingGround(const SceneSetup& setup, osg::Camera& camera) : _setup(setup), _camera(&camera) {}
+
+    void operator()(osg::Node* node, osg::NodeVisitor* visitor) override {
+        _camera->setClearColor(osg::Vec4(osg::Vec3(_setup.farColour()), 1.0f));
+        traverse(node, visitor);
+    }
+
+private:
+    const SceneSetup& _setup;
+    osg::Camera* _camera; // of the viewer, which updates the scene
+};
+
 } // namespace
 
 SceneWindow::SceneWindow(const WindowNames& names, const ViewOptions& options, SceneSetup& setup, Hud& hud,
                          osgGA::GUIEventHandler& keys)
     : _usage(new osg::ApplicationUsage) {
     askForStencilBits();
-    askForAlphaBits(); // soft edges
-    if (options.samples > 1) osg::DisplaySettings::instance()->setNumMultiSamples(unsigned(options.samples));
+    askForAlphaBits();                                            // soft edges
     _viewer.setThreadingModel(osgViewer::Viewer::SingleThreaded); // keys change what another thread could be drawing
     _viewer.setLightingMode(osg::View::NO_LIGHT);
     openWindow(names, options);
     placeCamera(*_viewer.getCamera(), options, setup);
     setup.root->addChild(hud.camera());
     _viewer.getCamera()->setPreDrawCallback(new ApplyColours);
+    if (!options.background) setup.root->addUpdateCallback(new FadingGround(setup, *_viewer.getCamera()));
     addHandlers(names, hud, keys);
     _viewer.setSceneData(setup.root);
     placeHands(options, setup);
@@ -129,10 +144,15 @@ SceneWindow::SceneWindow(const WindowNames& names, const ViewOptions& options, S
 
 void SceneWindow::openWindow(const WindowNames& names, const ViewOptions& options) {
     const Silence silence;
-    if (namesDisplay()) _viewer.setUpViewInWindow(corner, corner, options.width, options.height);
     osgViewer::Viewer::Windows windows;
-    _viewer.getWindows(windows);
-    const bool isPlain = options.samples == 1;
+    const auto tryToOpen = [&](int samples) {
+        if (options.samples > 1) osg::DisplaySettings::instance()->setNumMultiSamples(unsigned(samples));
+        if (namesDisplay()) _viewer.setUpViewInWindow(corner, corner, options.width, options.height);
+        _viewer.getWindows(windows);
+    };
+    const bool isPlain = !options.needsSamples;
+    tryToOpen(options.samples);
+    if (windows.empty() && isPlain && options.samples > 1) tryToOpen(0);
     const std::string kind = isPlain ? "" : " of " + std::to_string(options.samples) + " samples";
     if (windows.empty())
         throw std::runtime_error("no window" + kind + " can be opened. " + (isPlain ? "" : "Give fewer --samples. ") +

@@ -13,6 +13,9 @@ constexpr double smallestLength = 1e-9;
 constexpr std::size_t mostLights = 8;
 constexpr int largestSide = 16384;
 constexpr int mostSamples = 16;
+constexpr Lighting soft = {0.3, 0.65,
+                           0.35};  // a white ground under a sun at 45 degrees is 0.93 of white, in shadow 0.47
+constexpr double farRadii = 100.0; // where a lamp's light on the ground has faded
 
 [[noreturn]] void refuse(const std::string& sentence) { throw std::invalid_argument(sentence); }
 
@@ -71,13 +74,34 @@ void takeSize(ViewOptions& into, Text text) {
     if (into.height == 0) refuse("Allowed: WIDTHxHEIGHT from 1x1 to 16384x16384 pixels.");
 }
 
+std::string asText(double number) {
+    std::ostringstream text;
+    text << number;
+    return text.str();
+}
+
+/// What a part of the light is without its option.
+std::string usual(const ViewOptions& o, double Lighting::*part, const std::string& plain,
+                  const std::string& more = "") {
+    return o.lighting ? asText((*o.lighting).*part) + more + "; of a scene with lights of its own: as it has it"
+                      : plain;
+}
+
+void addFillOption(Options& table, ViewOptions& into) {
+    table.push_back({"--fill", "F",
+                     "diffuse part of a light without shadow, 0 to 10; it shines from the camera's side, 30 degrees "
+                     "high and\n      at least 105 degrees from the first light, so that shapes stay visible in shadow",
+                     usual(into, &Lighting::fill, "none"), [&into](Text t) { into.fill = readNumber(t, 0.0, 10.0); }});
+}
+
 void addUpOption(Options& table, ViewOptions& into) {
     table.push_back({"--up", "y|z", "up axis of the files; y turns them by 90 degrees about x, so that z is up", "z",
                      [&into](Text t) { into.yUp = readUp(t); }});
 }
 
 void addCameraOptions(Options& table, ViewOptions& into) {
-    table.push_back({"--eye", "x,y,z", "camera position, scene's unit", "so that casters and their shadows fill the picture",
+    table.push_back({"--eye", "x,y,z", "camera position, scene's unit",
+                     "so that casters and their shadows fill the picture",
                      [&into](Text t) { into.eye = readVec3(t); }});
     table.push_back({"--center", "x,y,z", "point that the camera looks at, scene's unit", "the scene's centre",
                      [&into](Text t) { into.center = readVec3(t); }});
@@ -89,10 +113,12 @@ void addCameraOptions(Options& table, ViewOptions& into) {
                      [&into](Text t) { into.zNear = readNumber(t, smallestLength, largestNumber); }});
     table.push_back({"--far", "F", "distance of the far plane, scene's unit, used exactly; needs --near", "computed",
                      [&into](Text t) { into.zFar = readNumber(t, smallestLength, largestNumber); }});
-    table.push_back({"--background", "r,g,b", "background colour, 0 to 1 each", "0.2,0.2,0.4",
+    table.push_back({"--background", "r,g,b", "background colour, 0 to 1 each",
+                     into.background ? "0.2,0.2,0.4" : "that of a white ground in the distance",
                      [&into](Text t) { into.background = readVec3(t, 0.0, 1.0); }});
-    table.push_back({"--samples", "N", "samples a pixel, 1 to 16: more than 1 smooth all edges", "1",
-                     [&into](Text t) { into.samples = readWhole(t, 1, mostSamples); }});
+    table.push_back(
+        {"--samples", "N", "samples a pixel, 1 to 16: more than 1 smooth all edges", std::to_string(into.samples),
+         [&into](Text t) { into.samples = readWhole(t, 1, mostSamples), into.needsSamples = into.samples > 1; }});
     addSize(table, into);
 }
 
@@ -134,7 +160,8 @@ void addShadowOptions(Options& table, ViewOptions& into) {
     table.push_back(
         {"--ground", "auto|none|SIZE",
          "white square ground under the scene, if no node is named ground; SIZE is its side in the scene's\n"
-         "      unit; auto is 4 times the scene's radius, where the scene has no level floor",
+         "      unit; auto is " +
+             asText(into.groundRadii) + " times the scene's radius, where the scene has no level floor",
          into.ground, [&into](Text t) { into.ground = readGround(t); }});
 }
 
@@ -148,8 +175,10 @@ void addLightOptions(Options& table, ViewOptions& into) {
                      "sun as a light: UTC as 2026-06-21T15:00:00Z, degrees north and east; x is east, y north, z up",
                      "none", [&into](Text t) { shine(into, readSun(t)); }});
     table.push_back({"--ambient", "A", "ambient light of the scene, 0 to 10; sets the lights' own ambient part to 0",
-                     "0.2, OSG's", [&into](Text t) { into.ambient = readNumber(t, 0.0, 10.0); }});
-    table.push_back({"--diffuse", "D", "diffuse part of each light, 0 to 10", "0.8, OSG's",
+                     usual(into, &Lighting::ambient, "0.1, OSG's"),
+                     [&into](Text t) { into.ambient = readNumber(t, 0.0, 10.0); }});
+    table.push_back({"--diffuse", "D", "diffuse part of each light, 0 to 10",
+                     usual(into, &Lighting::diffuse, "0.8, OSG's", " shared by all lights"),
                      [&into](Text t) { into.diffuse = readNumber(t, 0.0, 10.0); }});
 }
 
@@ -159,11 +188,21 @@ void addSize(Options& table, ViewOptions& into) {
                      [&into](Text t) { takeSize(into, t); }});
 }
 
+ViewOptions pictureOptions(int samples) {
+    ViewOptions options;
+    options.samples = samples;
+    options.lighting = soft;
+    options.groundRadii = farRadii;
+    options.background.reset();
+    return options;
+}
+
 Options viewOptions(ViewOptions& into) {
     Options table;
     addShadowOptions(table, into);
     addUpOption(table, into);
     addLightOptions(table, into);
+    if (into.lighting) addFillOption(table, into);
     addCameraOptions(table, into);
     return table;
 }

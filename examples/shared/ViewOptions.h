@@ -20,6 +20,13 @@ struct SunMoment {
     double day; ///< Julian, UTC.
 };
 
+/// How a scene without lights of its own is lit where no option says otherwise.
+struct Lighting {
+    double ambient;
+    double diffuse; ///< of all lights together.
+    double fill;    ///< see ViewOptions.
+};
+
 /// What the programs share: scene, lights, shadows and camera as the command line gives them.
 struct ViewOptions {
     std::vector<std::string> files;
@@ -30,9 +37,14 @@ struct ViewOptions {
     std::optional<SunMoment> sun;   ///< where one of them comes from.
     std::optional<double> ambient;
     std::optional<double> diffuse;
-    std::string receiver;        ///< for every shadow that names none itself.
-    std::string casters = "all"; ///< all, none, or a node's name.
-    std::string ground = "auto"; ///< auto, none, or the side's length.
+    /// Diffuse part of a light that casts no shadow. It shines from the camera's side, 30 degrees high and at least 105 degrees
+    /// from the first light, so that shapes stay visible in shadow.
+    std::optional<double> fill;
+    std::optional<Lighting> lighting; ///< nullopt: OSG's, without fill.
+    std::string receiver;             ///< for every shadow that names none itself.
+    std::string casters = "all";      ///< all, none, or a node's name.
+    std::string ground = "auto";      ///< auto, none, or the side's length.
+    double groundRadii = 4.0;         ///< side of the ground that auto adds, in radii of the scene.
     bool yUp = false;
     bool keepLights = false; ///< no sun where there is no light, and lighting as the scene has it.
     std::optional<osg::Vec3d> eye;
@@ -43,10 +55,16 @@ struct ViewOptions {
     std::optional<double> orthographic;
     std::optional<double> zNear;
     std::optional<double> zFar;
-    osg::Vec3d background{0.2, 0.2, 0.4};
+    std::optional<osg::Vec3d> background =
+        osg::Vec3d(0.2, 0.2, 0.4); ///< nullopt: as an added ground is in the distance.
     int width = 800, height = 600; ///< of the picture, pixels.
     int samples = 1;               ///< a pixel.
+    bool needsSamples = false;     ///< they were asked for: a window that has fewer is not to be opened.
 };
+
+/// Options of programs whose pictures people look at: soft light, and a ground that ends nowhere. Programs that measure keep
+/// OSG's light and a small ground, so that their figures stay comparable.
+ViewOptions pictureOptions(int samples);
 
 /// The options of `into`, as a table.
 Options viewOptions(ViewOptions& into);

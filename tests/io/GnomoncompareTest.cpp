@@ -221,8 +221,9 @@ TEST_F(Gnomoncompare, WhatIsTurnedAwayFromTheLightIsDarkAndNotWithoutANumber) {
 /// gnomonshot's own pictures by its own truth, one light and then another.
 TEST_F(Gnomoncompare, JudgesPicturesOfGnomonshotByTheTruthThatGnomonshotWrites) {
     const auto shoot = [&](Arguments more) {
-        more.insert(more.begin(), {GNOMON_DATA "/lab8.osgt", "--ambient", "0", "--size", "400x300", "--eye",
-                                   "-1,-3.6,2.2", "--center", "-0.15,0.1,0.1", "--light"});
+        more.insert(more.begin(),
+                    {GNOMON_DATA "/lab8.osgt", "--samples", "1", "--ambient", "0", "--fill", "0", "--size", "400x300",
+                     "--eye", "-1,-3.6,2.2", "--center", "-0.15,0.1,0.1", "--light"});
         const Ending ending = runProgram(GNOMONSHOT, more, folder.path());
         EXPECT_EQ(ending.status, 0) << ending.err;
     };
@@ -239,8 +240,8 @@ TEST_F(Gnomoncompare, JudgesPicturesOfGnomonshotByTheTruthThatGnomonshotWrites) 
     EXPECT_NE(run({}).err.find("these numbers mean nothing"), std::string::npos) << "A's sides are brighter than B's";
     const Ending elsewhere =
         runProgram(GNOMONSHOT,
-                   {GNOMON_DATA "/lab8.osgt", "--ambient", "0", "--size", "400x300", "--eye", "-1,-3.2,2.0", "--center",
-                    "-0.15,0.1,0.1", "--light", "1,-1,2,0", "--out", "a.tif"},
+                   {GNOMON_DATA "/lab8.osgt", "--samples", "1", "--ambient", "0", "--fill", "0", "--size", "400x300",
+                    "--eye", "-1,-3.2,2.0", "--center", "-0.15,0.1,0.1", "--light", "1,-1,2,0", "--out", "a.tif"},
                    folder.path());
     EXPECT_EQ(elsewhere.status, 0) << elsewhere.err;
     EXPECT_NE(run({}).err.find("these numbers mean nothing"), std::string::npos);

@@ -34,11 +34,14 @@ protected:
         return image ? image : osg::ref_ptr<osg::Image>(new osg::Image);
     }
 
-    /// Picture of `files` with these options, 160x120.
+    /// Picture of `files` with these options; without others 160x120, one sample a pixel, lit by its lights alone before OSG's
+    /// blue: what is lit, in shadow and background has colours of its own then.
     osg::ref_ptr<osg::Image> shoot(Arguments arguments) {
-        arguments.insert(arguments.end(), {"--out", "o.png"});
-        if (std::find(arguments.begin(), arguments.end(), "--size") == arguments.end())
-            arguments.insert(arguments.end(), {"--size", "160x120"});
+        const Arguments plain = {"--size",      "160x120", "--samples", "1",     "--background",
+                                 "0.2,0.2,0.4", "--fill",  "0",         "--out", "o.png"};
+        for (std::size_t i = 0; i < plain.size(); i += 2)
+            if (std::find(arguments.begin(), arguments.end(), plain[i]) == arguments.end())
+                arguments.insert(arguments.end(), {plain[i], plain[i + 1]});
         run(arguments);
         return load("o.png");
     }
@@ -112,7 +115,7 @@ TEST_F(Gnomonshot, WritesEveryFormatThatOsgWrites) {
 
 TEST_F(Gnomonshot, DrawsTheShadowsOfAutoUnlessAskedForOthers) {
     const osg::ref_ptr<osg::Image> usual = shoot({scene}), without = shoot({scene, "--shadow", "none"});
-    EXPECT_EQ(countDifferent(*usual, *shoot({scene, "--shadow", "auto"})), 0);
+    EXPECT_EQ(countDifferent(*usual, *shoot({scene, "--shadow", "auto:error=0.25"})), 0);
     EXPECT_GT(countDifferent(*usual, *without), 40);
     EXPECT_GT(countDifferent(*without, *shoot({scene, "--shadow", "planar"})), 40);
 }
@@ -243,6 +246,45 @@ TEST_F(Gnomonshot, TakesAwayExactlyTheLight) {
     EXPECT_EQ(at(-1.1, 0.6), 152);
 }
 
+/// Without options: a level ground gets 0.3 of ambient light and 0.35 sin 30° of the fill light; a sun at 45° adds 0.65 sin 45°.
+TEST_F(Gnomonshot, LightsShadowsSoftlyWhereNoOptionSaysOtherwise) {
+    folder.write("both.obj", plate(false) + "v -.01 -.01 0\nv .01 -.01 0\nv .01 .01 0\nf 5 6 7\n");
+    run(Arguments{"both.obj", "-O", "noRotation", "--light", "1,0,1,0", "--out", "o.png"} + fromAbove);
+    const osg::ref_ptr<osg::Image> image = load("o.png");
+    const double dark = 0.3 + 0.35 * 0.5, lit = dark + 0.65 * std::sqrt(0.5);
+    EXPECT_NEAR(red(*image, 50 - 13, 50), 255.0 * dark, 0.6);
+    EXPECT_NEAR(red(*image, 50 + 13, 50), 255.0 * lit, 0.6);
+    EXPECT_NEAR(red(*image, 50 - 20, 50), 255.0 * lit, 0.6);
+}
+
+TEST_F(Gnomonshot, DrawsEightSamplesAPixelWithoutAnOption) {
+    const Arguments view = {scene, "--shadow", "planar", "--size", "160x120", "--out", "o.png"};
+    run(view);
+    const auto usual = load("o.png");
+    run(view + Arguments{"--samples", "8"});
+    EXPECT_EQ(countDifferent(*usual, *load("o.png")), 0);
+    run(view + Arguments{"--samples", "1"});
+    EXPECT_GT(countDifferent(*usual, *load("o.png")), 200);
+}
+
+/// Neither a horizon nor a corner of the ground is seen: the outermost pixels, sky and ground, have one colour.
+TEST_F(Gnomonshot, ItsGroundEndsNowhere) {
+    folder.write("box.osgt", greenBox);
+    for (const std::string eye : {"-4,-6,5", "-4,-6,1.2", "-20,-30,2"})
+        for (const std::string light : {"1,-1,1,0", "1,0.5,0.4,0", "-0.2,0.1,3,0"}) {
+            run({"box.osgt", "--eye", eye, "--light", light, "--size", "160x120", "--out", "o.png"});
+            const auto image = load("o.png");
+            int least = 255, most = 0;
+            for (int y = 0; y < image->t(); ++y)
+                for (int x = 0; x < image->s(); ++x)
+                    if (x == 0 || y == 0 || x == image->s() - 1 || y == image->t() - 1) {
+                        least = std::min(least, red(*image, x, y));
+                        most = std::max(most, red(*image, x, y));
+                    }
+            EXPECT_LE(most - least, 1) << eye << " " << light;
+        }
+}
+
 TEST_F(Gnomonshot, TurnsScenesThatAreYUp) {
     folder.write("z.obj", plate(false));
     folder.write("y.obj", plate(true));
@@ -256,7 +298,7 @@ TEST_F(Gnomonshot, PutsGroundOnlyUnderScenesWithoutOne) {
     folder.write("plate.obj", plate(false));
     const osg::ref_ptr<osg::Image> none = shoot({"plate.obj", "--ground", "none"});
     EXPECT_GT(countDifferent(*none, *shoot({"plate.obj"})), 1000);
-    EXPECT_GT(countDifferent(*shoot({"plate.obj", "--ground", "20"}), *shoot({"plate.obj"})), 1000);
+    EXPECT_GT(countDifferent(*shoot({"plate.obj", "--ground", "2"}), *shoot({"plate.obj"})), 1000);
     EXPECT_EQ(countDifferent(*shoot({scene}), *shoot({scene, "--ground", "none"})), 0);
 }
 
@@ -383,6 +425,14 @@ TEST_F(Gnomonshot, SetsThePartsOfTheScenesOwnLights) {
         shoot(Arguments{"lit.osgt", "--shadow", "planar", "--ambient", "0.1", "--diffuse", "0.7"} + fromAbove);
     EXPECT_EQ(red(*image, 66, 50), 152);
     EXPECT_NEAR(red(*image, 37, 50), 25.5, 0.6) << "the box's shadow goes from x = -0.5 to -1.5";
+}
+
+/// OSG's ambient light of 0.1, the light of 1 at 45°, and nothing else.
+TEST_F(Gnomonshot, LeavesTheLightOfScenesThatHaveLights) {
+    folder.write("lit.osgt", boxUnderItsLight);
+    run(Arguments{"lit.osgt", "--out", "o.png"} + fromAbove);
+    EXPECT_NEAR(red(*load("o.png"), 66, 50), 255.0 * (0.1 + std::sqrt(0.5)), 0.6);
+    EXPECT_NEAR(red(*load("o.png"), 37, 50), 255.0 * 0.1, 0.6);
 }
 
 /// An image beside a file is found wherever the program runs.

@@ -37,7 +37,11 @@ using namespace gnomon::examples;
 
 /// What gnomonshot's command line asks for.
 struct ShotOptions {
-    ViewOptions view;
+    ShotOptions() {
+        view.usualShadow = "auto:error=0.25";
+    } // samples would show the texels of maps that just keep 1 pixel
+
+    ViewOptions view = pictureOptions(8);
     std::optional<int> frames; ///< 1, or 20 with stats.
     std::string out;           ///< picture; empty: none.
     std::string stats;         ///< JSON file; empty: none.
@@ -87,8 +91,10 @@ void requireOutput(const ShotOptions& options) {
 }
 
 void requireAuto(ShotOptions& options) {
-    const std::vector<ShadowSpec>& shadows = options.view.shadows;
+    std::vector<ShadowSpec>& shadows = options.view.shadows;
     if (!options.recommend) return;
+    if (options.view.isUsual)
+        shadows = {parseShadowSpec("auto")}; // programs draw frames, not a picture of many samples
     options.view.isUsual = false;
     if (shadows.size() > 1 || shadows.front().technique != "auto")
         throw std::invalid_argument(

@@ -15,7 +15,7 @@ using namespace gnomon::examples;
 
 /// What gnomonviewer's command line asks for.
 struct ViewerOptions {
-    ViewOptions view;
+    ViewOptions view = pictureOptions(4);
     double sunSpeed = 0.0; ///< 1 is the clock's.
     bool help = false;
 };
