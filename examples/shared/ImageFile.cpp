@@ -2,6 +2,7 @@
 #include "ImageFile.h"
 #include "InputFile.h"
 
+#include <metrics/ShadowMetrics.h>
 #include <osg/UserDataContainer>
 #include <osg/ValueObject>
 
@@ -36,6 +37,7 @@ Colour colourAt(const metrics::Picture& visibility, const metrics::TruthMaps& tr
         return truth.facing.cells[i] > 0.05 ? noNumber : turnedAway; // no renderer shows light there
     }
     const Colour grey(0.15 + 0.7 * std::clamp(v, 0.0, 1.0));
+    if (sets.agreeing.cells[i] && metrics::isTooth(visibility, truth, i)) return falseShadow;
     if (!sets.facing.cells[i]) return 0.4 * grey;
     const bool lit = truth.litCentre.cells[i];
     if (metrics::isShadowed(v) != lit) return grey;

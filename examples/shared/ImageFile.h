@@ -33,7 +33,7 @@ metrics::Picture readGrey(const std::string& file, const std::string& program);
 /// The same of an image in memory, whose lowest row comes first.
 metrics::Picture greysOf(const osg::Image& image);
 
-/// The visibility in grey, dark outside R+; missed shadow red, false shadow blue, both pale on edge pixels; magenta
+/// The visibility in grey, dark outside R+; missed shadow red, false shadow and teeth blue, pale on edge pixels; magenta
 /// where it is not measured on a surface that faces the light.
 osg::ref_ptr<osg::Image> errorOverlay(const metrics::Picture& visibility, const metrics::TruthMaps& truth);
 

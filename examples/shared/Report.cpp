@@ -149,6 +149,7 @@ nlohmann::ordered_json jsonOf(const ShadowMetrics& m) {
             {"terminator", countsJson(m.terminator)},
             {"selfShadowed", countsJson(m.selfShadowed)},
             {"turnedAwayWrong", m.turnedAwayWrong},
+            {"teeth", m.teeth ? ordered_json(*m.teeth) : ordered_json()},
             {"boundaryPixels", m.boundary ? boundaryJson(*m.boundary) : ordered_json()},
             {"causes", causesJson(m.causes)},
             {"rmsePointSun", intensityJson(m.pointSun)},

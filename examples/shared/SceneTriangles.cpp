@@ -117,7 +117,7 @@ public:
         const std::vector<osg::Vec3d> local = positions(geometry.getVertexArray());
         if (local.empty() || Cutout::isUnfilled(getNodePath(), geometry)) return;
         const osg::Matrixd world = osg::computeLocalToWorld(getNodePath());
-        _into.objects.push_back({Cutout::of(getNodePath(), geometry)});
+        _into.objects.push_back({Cutout::of(getNodePath(), geometry), getNodePath()});
         if (_clear == Clear::PASSES && !_into.objects.back().cutout)
             _into.objects.back().cutout = Cutout::blended(getNodePath(), geometry);
         addTriangles(geometry, local.size());

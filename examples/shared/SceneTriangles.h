@@ -50,6 +50,7 @@ struct SceneTriangles {
     /// A drawable under one way down to it.
     struct Object {
         std::optional<Cutout> cutout;
+        osg::NodePath path; ///< down to the drawable, which is its last.
     };
 
     std::vector<osg::Vec3d> vertices;

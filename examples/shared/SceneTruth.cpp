@@ -179,6 +179,24 @@ metrics::TruthMaps mapsOf(const TruthImage& truth, const SceneTriangles& triangl
     return maps;
 }
 
+bool isBelow(const SceneTriangles::Object& object, const osg::Node& node) {
+    return std::find(object.path.begin(), object.path.end(), &node) != object.path.end();
+}
+
+/// All triangles but those below a node.
+SceneTriangles without(const SceneTriangles& all, const osg::Node& node) {
+    SceneTriangles left = all;
+    left.indices.clear();
+    left.object.clear();
+    for (std::size_t i = 0; i < all.count(); ++i) {
+        if (isBelow(all.objects[all.object[i]], node)) continue;
+        left.object.push_back(all.object[i]);
+        left.indices.insert(left.indices.end(), all.indices.begin() + std::ptrdiff_t(3 * i),
+                            all.indices.begin() + std::ptrdiff_t(3 * i + 3));
+    }
+    return left;
+}
+
 } // namespace
 
 struct SceneTruth::Parts {
@@ -225,6 +243,27 @@ metrics::Picture SceneTruth::litByDisc(const SceneCamera& camera, const osg::Vec
     metrics::Picture result(truth.width, truth.height);
     for (std::size_t i = 0; i < truth.pixels.size(); ++i) result.cells[i] = double(truth.pixels[i].lit);
     return result;
+}
+
+metrics::Mask SceneTruth::alone(const SceneCamera& camera, const osg::Vec4d& light, const osg::Node& body) const {
+    const SceneTriangles& all = _parts->triangles;
+    const SceneTriangles others = without(all, body);
+    const std::unique_ptr<RayScene> casters = others.count() ? treeOf(others, origin()) : nullptr;
+    const TruthView view = _parts->view(camera, light);
+    const TruthImage truth = shadowTruth(*_parts->tree, casters ? *casters : *_parts->tree, view);
+    const auto isOfBody = [&](const TruthPixel& pixel) {
+        return pixel.seen() && isBelow(all.objects[all.object[pixel.receiver]], body);
+    };
+    const auto isShadowed = [&](int x, int y) {
+        for (int v = std::max(y - 2, 0); v <= std::min(y + 2, view.height - 1); ++v)
+            for (int u = std::max(x - 2, 0); u <= std::min(x + 2, view.width - 1); ++u)
+                if (isOfBody(truth.at(u, v)) && truth.at(u, v).blocker != RayHit::none) return true;
+        return false;
+    };
+    metrics::Mask mask(view.width, view.height);
+    for (int y = 0; y < view.height; ++y)
+        for (int x = 0; x < view.width; ++x) mask.at(x, y) = isOfBody(truth.at(x, y)) && !(casters && isShadowed(x, y));
+    return mask;
 }
 
 osg::Vec3d SceneTruth::origin() const { return _parts->origin; }

@@ -30,6 +30,10 @@ public:
     /// T_a of a sun 0.533 degrees across.
     metrics::Picture litByDisc(const SceneCamera& camera, const osg::Vec4d& light) const;
 
+    /// Where a body is seen and nothing else casts on it, nor within 2 px: 1; else 0.
+    /// @param body  a node of the scene.
+    metrics::Mask alone(const SceneCamera& camera, const osg::Vec4d& light, const osg::Node& body) const;
+
     osg::Vec3d origin() const;
     std::size_t triangles() const;
 

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Faults of techniques in still pictures that the stability table has found.
+#include "Mesh.h"
 #include "StabilityResults.h"
 #include "StabilityScene.h"
 #include "Yardstick.h"
 
+#include <gnomon/Convert.h>
 #include <metrics/PixelSets.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <stdexcept>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -37,6 +40,39 @@ std::vector<StabilityCell> measured(const std::string& scene, double value, cons
         cells.push_back(cell);
     }
     return cells;
+}
+
+/// V8: a sphere of few slices has teeth under a map that knows its facets alone, as osgShadow's does; a fine one has none, nor
+/// has one without shadows. What is darker than that is not told from the shading.
+TEST(MendedStills, TeethOfARoundBodyAreSeenOnAnyTechnique) {
+    const Entrant peer = named("ShadowMap"), plain{plainContender()};
+    const std::vector<StabilityCell> coarse = measured("V8", 16.0, {peer, plain}),
+                                     fine = measured("V8", 200.0, {peer, plain});
+    EXPECT_GT(coarse[0].everywhere.teeth.value(), 500u);
+    EXPECT_FALSE(coarse[0].inBudget());
+    EXPECT_LT(fine[0].everywhere.teeth.value(), 20u);
+    for (const std::vector<StabilityCell>& cells : {coarse, fine}) {
+        EXPECT_EQ(cells[1].everywhere.teeth.value(), 0u);
+        EXPECT_TRUE(cells[1].inBudget());
+    }
+}
+
+/// A sphere half in a box's shadow, above it. Only what is lit is judged: rays from below the box are no teeth.
+TEST(MendedStills, TeethAreLookedForWhereNothingElseCasts) {
+    ChartScene scene = stabilityScenes(std::vector<std::string>{"V8"})[0].make(48.0, 160, 120).scene;
+    const auto judgedPixels = [&scene] {
+        const std::vector<double> light = Yardstick(scene, false).maps().smoothLight.cells;
+        return int(std::count_if(light.begin(), light.end(), [](double each) { return each > 0.0; }));
+    };
+    const int alone = judgedPixels();
+    EXPECT_GT(alone, 1000);
+    const osg::Vec3d above = osg::Vec3d(scene.light.x(), scene.light.y(), scene.light.z()) * 10.0;
+    scene.content->addChild(
+        node(box(gnomon::toGlm(above - osg::Vec3d(8.0, 8.0, 0.0)), gnomon::toGlm(above + osg::Vec3d(8.0, 0.0, 1.0)))));
+    EXPECT_LT(judgedPixels(), 0.8 * alone);
+    EXPECT_GT(judgedPixels(), 0.1 * alone);
+    scene.round = "nobody";
+    EXPECT_THROW(judgedPixels(), std::invalid_argument);
 }
 
 /// A quad of pixels over two faces has the slope of neither.

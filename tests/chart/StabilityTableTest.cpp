@@ -244,6 +244,25 @@ TEST(StabilityJudge, CountsPixelsTurnedAwayThatAreBrightOrStripedAwayFromEdges) 
     EXPECT_EQ(wrong(bright, turnedAwayBy(-0.001)), 0u);
 }
 
+TEST(StabilityJudge, LeavesItsBudgetForAToothOfAConvexBody) {
+    metrics::TruthMaps truth = halfShadowed();
+    truth.smoothLight = metrics::Picture(32, 32, 0.0);
+    for (int y = 4; y < 28; ++y) truth.smoothLight.at(8, y) = 0.2;
+    metrics::Picture picture = centreRays();
+    for (int y = 4; y < 28; ++y) picture.at(8, y) = 1.0;
+    for (int y = 4; y < 28; ++y) truth.facing.at(8, y) = -0.1;
+    const auto judgedNow = [&] {
+        const metrics::PixelSets sets = metrics::pixelSets(truth, picture);
+        return judge(picture, truth, sets, sets.agreeing);
+    };
+    EXPECT_EQ(judgedNow().teeth, 0u);
+    EXPECT_TRUE(judgedNow().inBudget());
+    picture.at(8, 10) = 0.0;
+    EXPECT_EQ(judgedNow().teeth, 1u);
+    EXPECT_FALSE(judgedNow().inBudget());
+    EXPECT_EQ(judged(centreRays()).teeth, std::nullopt);
+}
+
 TEST(StabilityJudge, CallsAShadowLostIfNothingOfItIsThere) {
     EXPECT_TRUE(judged(metrics::Picture(32, 32, 1.0)).lost);
     EXPECT_FALSE(judged(centreRays()).lost);

@@ -133,20 +133,20 @@ class Files(unittest.TestCase):
                          "figure.png", "figure-boxes.svg", "figure-boxes.png"})  # fmt: skip
 
     def test_of_a_stability_table_hold_where_each_budget_is_left(self):
-        judged = {"p95Pixels": 0.5, "floorPixels": 0.4, "wrong": 0, "turnedAwayWrong": 0, "shadow": 9, "iou": 1.0, "lost": False}
+        judged = {"p95Pixels": 0.5, "floorPixels": 0.4, "wrong": 0, "turnedAwayWrong": 0, "shadow": 9, "iou": 1.0, "lost": False, "teeth": None}
         good = {"failure": "", "message": "", "everywhere": judged, "onReceiver": None, "inBudget": True, "catastrophe": False, "diagnosis": [],
                 "picture": ""}  # fmt: skip
-        bad = {**good, "everywhere": {**judged, "wrong": 7, "turnedAwayWrong": 3}, "inBudget": False, "diagnosis": ["It cannot be done."]}
+        bad = {**good, "everywhere": {**judged, "wrong": 7, "turnedAwayWrong": 3, "teeth": 5}, "inBudget": False, "diagnosis": ["It cannot be done."]}
         row = {"scene": "T1", "kit": "Gnomon", "technique": "map", "setting": "defaults", "outcome": "stated limit", "reach": 0.5,
                "cells": [good, bad], "flickerShare": None, "crawlPixels": 0.01, "flickerTurnedAwayWrong": 2, "flickerPicture": ""}  # fmt: skip
         scene = {"id": "T1", "section": "tests", "title": "Box", "about": "About.", "parameter": "size", "unit": "m", "values": [1.0, 0.1]}
         folder, ended = self.run_on("stability.json", {"complete": False, "made": [], "scenes": [scene], "rows": [row]})
         self.assertEqual(ended.returncode, 0, ended.stderr)
-        self.assertIn("stated limit at 0.1 m: 7 wrong pixels. It cannot be done.", ended.stdout)
+        self.assertIn("stated limit at 0.1 m: 7 wrong pixels, 5 teeth. It cannot be done.", ended.stdout)
         self.assertIn("Turned away and wrong: 3 px", ended.stdout)
         self.assertIn("The run was interrupted", (folder / "stability.html").read_text(encoding="utf-8"))
         lines = (folder / "stability.csv").read_text(encoding="utf-8").splitlines()
-        self.assertEqual(lines[2], "T1,size,0.1,m,Gnomon,map,defaults,stated limit,,0.5,7,3,9,1.0,False,False,It cannot be done.")
+        self.assertEqual(lines[2], "T1,size,0.1,m,Gnomon,map,defaults,stated limit,,0.5,7,3,9,1.0,5,False,False,It cannot be done.")
 
     def test_that_are_missing_or_broken_are_refused_in_a_sentence(self):
         _, ended = self.run_on("", "")

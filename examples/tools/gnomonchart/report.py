@@ -337,6 +337,7 @@ COLUMNS = [  # name in results.csv, head in the page or None, where it stands
     ("misclassified", "wrong, share", ("errors", "awayFromEdges", "misclassified")),
     ("iou", "IoU", ("errors", "awayFromEdges", "iou")),
     ("turned_away_wrong_px", "turned away wrong, px", ("errors", "turnedAwayWrong")),
+    ("teeth_px", "teeth, px", ("errors", "teeth")),
     ("lost_px", None, ("errors", "causes", "leak")),
     ("acne_px", None, ("errors", "causes", "acne")),
     ("shaded_rmse", "RMSE, shaded", ("shadedRmse",)),
@@ -530,12 +531,12 @@ def stability_figure(table, contenders):
 
 STABILITY_PAGE = HEAD + """
 <p>Each scene has one parameter, swept from harmless to hostile. A technique is within its budget while 95 % of the shadow's
-edge lies within 1 px of the true one, and no pixel away from edges is wrong.</p>
+edge lies within 1 px of the true one, no pixel away from edges is wrong, and no convex body has teeth.</p>
 <figure><img src="stability.svg" alt="technique by scene"></figure>
 <h2>All cells</h2>
 <p><label>Show rows that contain <input class="filter"></label> <span class="note">A click on a head sorts.</span></p>
 <div class="wide"><table class="sortable"><thead><tr><th class="text">scene</th><th class="text">technique</th>
-<th class="text">outcome</th><th class="text">at</th><th>wrong px</th><th>turned away wrong, px</th><th>edge off, px</th><th>IoU</th>
+<th class="text">outcome</th><th class="text">at</th><th>wrong px</th><th>turned away wrong, px</th><th>teeth, px</th><th>edge off, px</th><th>IoU</th>
 <th>flicker, share</th>
 <th>edge crawl, px</th><th class="text">pictures</th><th class="text">it says</th></tr></thead><tbody>
 {% for row in results.rows %}{% set scene = scenes[row.scene] %}{% set place = left_at(row) %}
@@ -545,6 +546,7 @@ edge lies within 1 px of the true one, and no pixel away from edges is wrong.</p
 <td class="text" style="background: {{ colour(row) }}" data-value="{{ row.reach }}">{{ row.outcome }}</td>
 <td class="text">{{ "the end" if place is none else value_text(scene, place) }}</td>
 <td>{{ cell.everywhere.wrong }}</td><td>{{ turned_away(row) }}</td>
+<td>{{ "" if cell.everywhere.teeth is none else cell.everywhere.teeth }}</td>
 <td>{{ short(cell.everywhere.p95Pixels) }}</td><td>{{ short(cell.everywhere.iou) }}</td>
 <td>{{ short(row.flickerShare) }}</td><td>{{ short(row.crawlPixels) }}</td>
 <td class="text">{% for one in row.cells if one.picture %}<a href="{{ one.picture }}">{{ value_text(scene, loop.index0) }}</a> {% endfor %}{% if row.flickerPicture %}<a href="{{ row.flickerPicture }}">film</a>{% endif %}</td>
@@ -563,7 +565,7 @@ def report_stability(folder, table):
     page = render(STABILITY_PAGE, title="When shadows break", results=table, file="stability", scenes=scenes, left_at=left_at,
                   contender=contender, colour=reach_colour, value_text=value_text, turned_away=turned_away)  # fmt: skip
     (folder / "stability.html").write_text(page, encoding="utf-8")
-    judged = ("p95Pixels", "wrong", "turnedAwayWrong", "shadow", "iou")
+    judged = ("p95Pixels", "wrong", "turnedAwayWrong", "shadow", "iou", "teeth")
     write_csv(folder / "stability.csv",
               ["scene", "parameter", "value", "unit", "kit", "technique", "setting", "outcome", "failure", *judged, "in_budget",
                "catastrophe", "it_says"],
@@ -579,6 +581,7 @@ def report_stability(folder, table):
             if place is not None:
                 cell = row["cells"][place]
                 what = f"{cell['failure']}, {cell['message']}" if cell["failure"] else f"{cell['everywhere']['wrong']} wrong pixels"
+                what += f", {cell['everywhere']['teeth']} teeth" if cell["everywhere"]["teeth"] else ""
                 end = f"{row['outcome']} at {value_text(scene, place)}: {what}. {' '.join(cell['diagnosis'])}"
             print(f"{row['scene']:5} {contender(row):36} {end}. Turned away and wrong: {turned_away(row)} px")
     print(f"{'':36}" + "".join(f"{outcome:>14}" for outcome in OUTCOMES))

@@ -28,6 +28,8 @@ struct TruthMaps {
     Grid<glm::dvec3> position;     ///< Optional: metres, surface point at the pixel's centre.
     glm::dvec3 towardsLight{0.0};  ///< Optional: direction to the light, any length; zero is unknown.
     glm::dvec3 up{0.0, 0.0, 1.0};  ///< Unit vector upwards.
+    /// Optional: light without shadows, 0 … 1, where a convex body is seen and nothing else casts; 0 elsewhere. See teeth().
+    Picture smoothLight;
 };
 
 /// The sets of pixels that metrics look at. No set has pixels whose visibility is unmeasured. Of the pixels turned away, those

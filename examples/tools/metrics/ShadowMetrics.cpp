@@ -27,6 +27,7 @@ void requireSizes(const Picture& visibility, const TruthMaps& truth) {
     require(visibility, truth.blocker, true, "blocker");
     require(visibility, truth.edgeLength, true, "edgeLength");
     require(visibility, truth.position, true, "position");
+    require(visibility, truth.smoothLight, true, "smoothLight");
 }
 
 std::size_t unmeasuredPixels(const Picture& visibility, const TruthMaps& truth) {
@@ -62,10 +63,11 @@ std::size_t turnedAwayWrong(const Picture& visibility, const TruthMaps& truth, c
     const auto differs = [&](int x, int y, int u, int v) {
         return turnedAway.holds(u, v) && turnedAway.at(u, v) && isDark(u, v) != isDark(x, y);
     };
+    const auto isSmooth = [&](int x, int y) { return !truth.smoothLight.empty() && truth.smoothLight.at(x, y) > 0.0; };
     std::size_t wrong = 0;
     for (int y = 0; y < turnedAway.height; ++y)
         for (int x = 0; x < turnedAway.width; ++x) {
-            if (!turnedAway.at(x, y)) continue;
+            if (!turnedAway.at(x, y) || isSmooth(x, y)) continue;
             if (truth.facing.at(x, y) < -doubt)
                 wrong += isDark(x, y) != (truth.blockerDistance.at(x, y) > 0.0);
             else
@@ -73,6 +75,18 @@ std::size_t turnedAwayWrong(const Picture& visibility, const TruthMaps& truth, c
                          differs(x, y, x, y + 1);
         }
     return wrong;
+}
+
+bool isTooth(const Picture& visibility, const TruthMaps& truth, std::size_t pixel) {
+    return !truth.smoothLight.empty() &&
+           (1.0 - visibility.cells[pixel]) * truth.smoothLight.cells[pixel] > leastContrast;
+}
+
+std::optional<std::size_t> teeth(const Picture& visibility, const TruthMaps& truth, const Mask& within) {
+    if (truth.smoothLight.empty()) return std::nullopt;
+    std::size_t found = 0;
+    for (std::size_t i = 0; i < within.cells.size(); ++i) found += within.cells[i] && isTooth(visibility, truth, i);
+    return found;
 }
 
 ShadowMetrics shadowMetrics(const Visibility& visibility, const TruthMaps& truth, const CauseLimits& limits) {
@@ -87,6 +101,7 @@ ShadowMetrics shadowMetrics(const Visibility& visibility, const TruthMaps& truth
     metrics.terminator = confusion(v, truth, sets.terminator);
     metrics.selfShadowed = confusion(v, truth, sets.selfShadowed);
     metrics.turnedAwayWrong = turnedAwayWrong(v, truth, sets.turnedAway);
+    metrics.teeth = teeth(v, truth, sets.agreeing);
     metrics.boundary = boundaryDistance(v, truth.lit, sets.facing);
     metrics.causes = causeSplit(v, truth, sets, limits);
     metrics.pointSun = intensityError(v, truth.lit, sets.facing);

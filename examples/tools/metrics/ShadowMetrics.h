@@ -35,6 +35,7 @@ struct ShadowMetrics {
     Confusion terminator;                     ///< On the set of this name, reported apart.
     Confusion selfShadowed;                   ///< On the set of this name, reported apart.
     std::size_t turnedAwayWrong = 0;          ///< See the function turnedAwayWrong().
+    std::optional<std::size_t> teeth;         ///< See the function teeth(). nullopt without TruthMaps::smoothLight.
     std::optional<BoundaryDistance> boundary; ///< M4; nullopt without both boundaries.
     CauseSplit causes;                        ///< M5.
     IntensityError pointSun;                  ///< M6 for a point sun.
@@ -48,8 +49,20 @@ struct ShadowMetrics {
 /// Where N_g.L is below -0.01, a pixel is wrong that is lit, or, if nothing but its own surface is between it and the light,
 /// dark: OpenGL lights both sides of a sheet alike, and it does not shadow itself. Nearer to the light's plane a depth buffer
 /// does not tell to which side a surface turns: it may be lit there as a whole, and a pixel is wrong that differs from one of
-/// its 4 neighbours.
+/// its 4 neighbours. Pixels of TruthMaps::smoothLight are left out: teeth() judges them.
 std::size_t turnedAwayWrong(const Picture& visibility, const TruthMaps& truth, const Mask& turnedAway);
+
+/// True if a shadow takes more than leastContrast of what the light gives to TruthMaps::smoothLight.
+bool isTooth(const Picture& visibility, const TruthMaps& truth, std::size_t pixel);
+
+/// The number of pixels of a convex body with smooth normals that its own shadow darkens. The right number is 0.
+///
+/// Such a body lies in no shadow of its own. Its shading ends at the terminator. A renderer that shadows it by its
+/// facets darkens a zigzag of pixels there, because some facets turn away before the normals do.
+///
+/// @param within  pixels to look at: R, or a part of it.
+/// @return nullopt without TruthMaps::smoothLight.
+std::optional<std::size_t> teeth(const Picture& visibility, const TruthMaps& truth, const Mask& within);
 
 /// Measures one picture by all these metrics. The functions for single metrics stand in the other headers.
 ///

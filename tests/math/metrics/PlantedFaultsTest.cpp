@@ -190,6 +190,25 @@ TEST(PlantedFaults, WhatIsTurnedAwayIsDarkAndASingleSheetsBackIsAsLitAsWhatIsBey
     EXPECT_EQ(wrong(filled(right, 88, 40, 3, 20, 0.5)), 0u); // the shadow's edge on the sheet
 }
 
+/// A body of 20 x 20 px that its shading lights by a half, its facets turned away from the light: all of it may be bright, and a
+/// shadow on 10 x 10 px of it is 100 teeth. Beside it, light that is too faint, or a shadow too faint, makes none.
+TEST(PlantedFaults, WhatAConvexBodysOwnShadowDarkensIsTeeth) {
+    TruthMaps truth = BoxOnGround().truth();
+    EXPECT_EQ(measured(perfect(), truth).teeth, std::nullopt);
+    truth.smoothLight = filled(Picture(BoxOnGround::width, BoxOnGround::height), 90, 10, 20, 20, 0.5);
+    truth.facing = filled(truth.facing, 90, 10, 20, 20, -0.1);
+    truth.lit = filled(truth.lit, 90, 10, 20, 20, 0.0);
+    const auto of = [&truth](const Picture& shown) { return measured(shown, truth); };
+    EXPECT_EQ(of(perfect()).teeth, 0u);
+    EXPECT_EQ(of(perfect()).turnedAwayWrong, 0u);
+    EXPECT_EQ(of(filled(perfect(), 95, 15, 10, 10, 0.0)).teeth, 100u);
+    EXPECT_EQ(of(filled(perfect(), 95, 15, 10, 10, 1.0 - 2.0 * 7.9 / 255.0)).teeth, 0u);
+    EXPECT_EQ(of(filled(perfect(), 95, 15, 10, 10, 1.0 - 2.0 * 8.1 / 255.0)).teeth, 100u);
+    EXPECT_EQ(of(filled(perfect(), 60, 10, 10, 10, 0.0)).teeth, 0u); // of the ground
+    truth.smoothLight = filled(truth.smoothLight, 90, 10, 20, 20, 0.03);
+    EXPECT_EQ(of(filled(perfect(), 95, 15, 10, 10, 0.0)).teeth, 0u);
+}
+
 TEST(PlantedFaults, PixelsThatAreNoNumbersAreCountedAndInNoAverage) {
     Picture broken = perfect();
     broken.at(90, 20) = std::nan("");

@@ -75,8 +75,9 @@ private:
 
 double score(const metrics::ShadowMetrics& metrics) {
     if (metrics.catastrophes.any()) return infinite;
-    const double wrong = 100.0 * metrics.headline.misclassified().value_or(0.0);
-    return (metrics.boundary ? metrics.boundary->p95 : 0.0) + wrong;
+    const double wrong = 100.0 * metrics.headline.misclassified().value_or(0.0),
+                 teeth = metrics.agreeing ? 100.0 * double(metrics.teeth.value_or(0)) / double(metrics.agreeing) : 0.0;
+    return (metrics.boundary ? metrics.boundary->p95 : 0.0) + wrong + teeth;
 }
 
 Settings bestSettings(const Peer& peer, const Yardstick& yardstick, SweepWidth width,

@@ -8,7 +8,7 @@
 namespace gnomon::examples {
 
 /// How good a still picture is, lower is better: 95th percentile of the boundary distance, px, plus the share of certain
-/// pixels that are wrong, %; infinite for a catastrophe. So a pixel of distance weighs as much as 1 % of acne or leaks.
+/// pixels that are wrong, %, plus the teeth's share of the surface, %; infinite for a catastrophe. So a pixel of distance weighs as much as 1 % of acne or leaks.
 double score(const metrics::ShadowMetrics& metrics);
 
 /// How wide a sweep goes.

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "Yardstick.h"
+#include "Contender.h"
+#include "ImageFile.h"
 
+#include <gnomon/NamedNode.h>
 #include <metrics/PixelSets.h>
 
 #include <glm/common.hpp>
 #include <sstream>
+#include <stdexcept>
 
 namespace gnomon::examples {
 namespace {
@@ -42,6 +46,19 @@ std::string numbers(const std::initializer_list<double>& values) {
 
 } // namespace
 
+/// What the light gives each pixel of the round body on which nothing else casts.
+static metrics::Picture smoothLight(const ChartScene& scene, const SceneTruth& truth, osg::Node& seen) {
+    const std::optional<NamedNode> body = findNamed(seen, scene.round);
+    if (!body) throw std::invalid_argument("the scene has no body named \"" + scene.round + "\".");
+    StageViewer viewer(plainContender().stage(scene, Look::VISIBILITY), scene.camera, StageViewer::Colour::FLOATS);
+    for (int frame = 0; frame <= scene.framesBefore; ++frame) viewer.draw();
+    metrics::Picture light = greysOf(*viewer.image());
+    const metrics::Mask alone = truth.alone(scene.camera, scene.light, *body->node);
+    for (std::size_t i = 0; i < light.cells.size(); ++i)
+        if (!alone.cells[i]) light.cells[i] = 0.0;
+    return light;
+}
+
 metrics::Visibility raysOf(const metrics::Mask& lit) {
     metrics::Visibility result;
     result.value = metrics::Picture(lit.width, lit.height);
@@ -52,6 +69,7 @@ metrics::Visibility raysOf(const metrics::Mask& lit) {
 Yardstick::Yardstick(const ChartScene& scene, bool withDisc, osg::Node* seen)
     : _scene(scene), _truth(seen ? *seen : *scene.content), _maps(_truth.maps(scene.camera, scene.light)) {
     if (withDisc && scene.light.w() == 0.0) _maps.litByDisc = _truth.litByDisc(scene.camera, scene.light);
+    if (!scene.round.empty()) _maps.smoothLight = smoothLight(scene, _truth, seen ? *seen : *scene.content);
     const metrics::Picture measured(scene.camera.width, scene.camera.height, 1.0);
     _agreeing = metrics::pixelSets(_maps, measured).agreeing;
 }

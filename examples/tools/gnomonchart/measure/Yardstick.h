@@ -14,7 +14,7 @@ metrics::Visibility raysOf(const metrics::Mask& lit);
 
 /// What is true of one scene: all that its contenders are measured against, made once.
 ///
-/// Cost    34 rays a pixel, and 256 more with the disc.
+/// Cost    34 rays a pixel, as many again for a round body, and 256 more with the disc.
 class Yardstick {
 public:
     /// @param withDisc  the truth of the sun's disc too; a lamp has none.

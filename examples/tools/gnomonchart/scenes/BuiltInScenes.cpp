@@ -152,6 +152,7 @@ struct Entry {
     std::optional<osg::Vec3d> eye, center;
     double fovy = 40.0;          ///< degrees.
     std::string ground = "none"; ///< as --ground.
+    std::string round = {};      ///< see ChartScene.
 };
 
 std::function<osg::ref_ptr<osg::Node>()> file(const std::string& path) {
@@ -204,6 +205,7 @@ void addModels(std::vector<Entry>& entries) {
     Entry lab8 = onGround("lab8", "Lab 8: sphere and cube", GNOMON_LAB8);
     lab8.eye = osg::Vec3d(-1.0, -3.6, 2.2);
     lab8.center = osg::Vec3d(-0.15, 0.1, 0.1);
+    lab8.round = "sphere";
     addTwice(entries, lab8, 120.0);
     addTwice(entries, onGround("bunny", "Stanford bunny", "/usr/share/glmark2/models/bunny.obj"), 120.0);
     addTwice(entries, onGround("flyer", "Wright Flyer", "/usr/share/inventor/data/models/vehicles/kittyHawk.iv"),
@@ -247,6 +249,7 @@ ChartScene chartScene(const std::string& name, int width, int height) {
         ChartScene scene = chartSceneOf(*entry.make(), viewOf(entry, width, height));
         scene.name = entry.name;
         scene.title = entry.title;
+        scene.round = entry.round;
         return scene;
     }
     std::ostringstream allowed;

@@ -22,6 +22,7 @@ struct ChartScene {
     SceneCamera camera;               ///< of the still pictures; its near and far planes are fixed.
     std::string receiver;             ///< name of the flat node that planar shadows fall on; empty: there is none.
     std::string terrain;              ///< name of the node that box and hull fall on; empty: there is none.
+    std::string round;                ///< name of a body as metrics::teeth() judges it; empty: there is none.
     osg::BoundingBoxd bounds;         ///< of the content, world.
     osg::Vec3d center;                ///< what the camera looks at, world.
     double radius = 1.0;              ///< of the scene's bounds without its ground, scene's unit.

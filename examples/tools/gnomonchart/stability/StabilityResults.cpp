@@ -139,6 +139,7 @@ static ordered_json jsonOf(const StabilityJudgement& judgement) {
             {"turnedAwayWrong", judgement.turnedAwayWrong},
             {"shadow", judgement.shadow},
             {"iou", jsonOf(judgement.iou)},
+            {"teeth", judgement.teeth ? ordered_json(*judgement.teeth) : ordered_json()},
             {"lost", judgement.lost}};
 }
 
@@ -205,6 +206,7 @@ StabilityJudgement judgementOf(const ordered_json& from) {
             from.at("turnedAwayWrong"),
             from.at("shadow"),
             numberOf(from.at("iou")),
+            ifAny<std::size_t>(from.at("teeth"), [](const ordered_json& pixels) { return pixels.get<std::size_t>(); }),
             from.at("lost")};
 }
 
@@ -241,6 +243,7 @@ StabilityJudgement judge(const metrics::Picture& visibility, const metrics::Trut
     judged.turnedAwayWrong = metrics::turnedAwayWrong(visibility, truth, both(sets.turnedAway, within));
     judged.shadow = counts.shadow + counts.falseLit;
     judged.iou = counts.intersectionOverUnion();
+    judged.teeth = metrics::teeth(visibility, truth, both(sets.agreeing, within));
     judged.lost = judged.iou < lostBelow && judged.shadow + counts.falseShadow >= leastPixels;
     return judged;
 }

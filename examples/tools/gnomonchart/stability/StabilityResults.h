@@ -17,13 +17,17 @@ struct StabilityJudgement {
     double floor = 0.0;    ///< the same of pictures that ask one ray a pixel, at its centre or 1/16 px beside it: the
                            ///< largest. Nothing hard-edged knows its places better.
     std::size_t wrong = 0; ///< certain pixels that are wrong, away from edges.
-    std::size_t turnedAwayWrong = 0; ///< see metrics::turnedAwayWrong(); a figure apart, of no weight in the budget.
-    std::size_t shadow = 0;          ///< certain pixels that are truly shadowed.
-    double iou = 1.0;                ///< intersection over union of the shadow's certain pixels.
+    std::size_t turnedAwayWrong = 0;  ///< see metrics::turnedAwayWrong(); a figure apart, of no weight in the budget.
+    std::size_t shadow = 0;           ///< certain pixels that are truly shadowed.
+    double iou = 1.0;                 ///< intersection over union of the shadow's certain pixels.
+    std::optional<std::size_t> teeth; ///< see metrics::teeth(); none: the scene has no such body.
     bool lost = false; ///< a catastrophe: IoU below 0.2 where shadow or false shadow is of 50 pixels or more.
 
-    /// At most 1 px at the 95th percentile, or as much as the floor, and no wrong pixels away from edges.
-    bool inBudget() const { return !lost && wrong == 0 && p95.value_or(0.0) <= std::max(1.0, floor + 1e-9); }
+    /// At most 1 px at the 95th percentile, or as much as the floor, no wrong pixels away from edges, and no teeth: a tooth
+    /// is not at an edge of a shadow that could be a pixel off, for there is none.
+    bool inBudget() const {
+        return !lost && wrong == 0 && teeth.value_or(0) == 0 && p95.value_or(0.0) <= std::max(1.0, floor + 1e-9);
+    }
 };
 
 /// One technique in one scene at one value.

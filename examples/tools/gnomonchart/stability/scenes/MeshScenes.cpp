@@ -2,6 +2,8 @@
 // Meshes as they come, and where the eye is among shadows.
 #include "SceneParts.h"
 
+#include <osg/Geometry>
+
 #include <cmath>
 #include <cstdint>
 #include <random>
@@ -76,6 +78,25 @@ SceneParts fine(double slices) {
     return parts;
 }
 
+/// A sphere of so many slices, shaded as if it were round, alone. The terminator goes through the middle of the picture.
+SceneParts roundBody(double slices) {
+    SceneParts parts;
+    const osg::ref_ptr<osg::Geode> body = node(sphere({0.0, 0.0, 0.0}, 2.0, int(slices)), "body");
+    osg::Geometry& geometry = *body->getDrawable(0)->asGeometry();
+    osg::ref_ptr<osg::Vec3Array> normals =
+        new osg::Vec3Array(static_cast<const osg::Vec3Array&>(*geometry.getVertexArray()), osg::CopyOp());
+    for (osg::Vec3& normal : *normals) normal.normalize();
+    geometry.setNormalArray(normals, osg::Array::BIND_PER_VERTEX);
+    parts.add(body);
+    parts.round = "body";
+    parts.light = {0.5, -0.4, 0.7, 0.0};
+    parts.eye = {-10.0, -6.0, 4.0};
+    parts.center = {0.0, 0.0, 0.0};
+    parts.fovy = 24.0;
+    parts.radius = 2.0;
+    return parts;
+}
+
 /// So many towers under a low sun.
 SceneParts towers(double count) {
     SceneParts parts = onGround(60.0);
@@ -120,6 +141,8 @@ std::vector<StabilityScene> meshScenes() {
                 {1.0, 9.0, 25.0, 100.0, 225.0}, towers);
     section.add("V7", "Sheet edge-on", "A sheet without thickness casts less and less as it turns along the rays.",
                 "angle to the rays", "°", {90.0, 45.0, 15.0, 5.0, 1.0, 0.0}, sheet);
+    section.add("V8", "Round body of few facets", "A convex body is as bright as without shadows.",
+                "slices of a sphere", "", {200.0, 96.0, 48.0, 24.0, 16.0, 12.0, 8.0}, roundBody);
     return section.scenes();
 }
 

@@ -53,6 +53,7 @@ StabilityCase stabilityCase(const SceneParts& parts, int width, int height) {
     scene.radius = parts.radius;
     if (findNamed(*parts.content, "ground")) scene.receiver = "ground";
     scene.terrain = findNamed(*parts.content, "terrain") ? "terrain" : scene.receiver;
+    scene.round = parts.round;
     result.truth = parts.truth;
     return result;
 }

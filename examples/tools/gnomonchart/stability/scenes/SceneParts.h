@@ -21,6 +21,7 @@ struct SceneParts {
     std::optional<double> near, far;    ///< both or none; none: close about the content.
     double radius = 3.0;                ///< of what matters, for contact and the peers' lengths.
     osg::ref_ptr<osg::Group> truth;     ///< see StabilityCase.
+    std::string round;                  ///< see ChartScene.
 
     void add(const Mesh& mesh, const std::string& name = "");
     void add(osg::Node* node) { content->addChild(node); }
