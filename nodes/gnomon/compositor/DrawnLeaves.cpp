@@ -36,15 +36,6 @@ void append(osgUtil::RenderBin& bin, int before, std::vector<DrawnLeaf>& leaves)
     for (; next != bins.end() && next->first < before; ++next) append(*next->second, INT_MAX, leaves);
 }
 
-bool isSamePlace(const osg::Matrixd& a, const osg::Matrixd& b, double rounding) {
-    double difference = 0.0, size = 0.0;
-    for (int i = 0; i < 16; ++i) {
-        difference = std::max(difference, std::abs(a.ptr()[i] - b.ptr()[i]));
-        size = std::max(size, std::abs(a.ptr()[i]));
-    }
-    return difference <= 1e-9 * size + rounding;
-}
-
 /// Orders places, of which those in a grid mostly share a coordinate.
 double along(const osg::Matrixd& place) { return place(3, 0) + 0.618 * place(3, 1) + 0.327 * place(3, 2); }
 
@@ -240,6 +231,15 @@ bool isSameLens(const osg::Matrixd& a, const osg::Matrixd& b) {
         for (const int column : {0, 1, 3})
             if (a(row, column) != b(row, column)) return false;
     return true;
+}
+
+bool isSamePlace(const osg::Matrixd& a, const osg::Matrixd& b, double rounding) {
+    double difference = 0.0, size = 0.0;
+    for (int i = 0; i < 16; ++i) {
+        difference = std::max(difference, std::abs(a.ptr()[i] - b.ptr()[i]));
+        size = std::max(size, std::abs(a.ptr()[i]));
+    }
+    return difference <= 1e-9 * size + rounding;
 }
 
 void DrawablePlaces::add(const osg::Drawable& drawable, const osg::Matrixd& place) {

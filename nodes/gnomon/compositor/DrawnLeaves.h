@@ -33,6 +33,10 @@ inline const osg::Matrixd& projectionOf(const osgUtil::RenderLeaf& leaf) { retur
 /// True if two views have the same lens: the same but for near and far, which a nested camera finds for itself.
 bool isSameLens(const osg::Matrixd& a, const osg::Matrixd& b);
 
+/// True if two places are the same, but for the rounding of a product that is taken in another order.
+/// @param rounding  of coordinates on the way there, if they are larger than those in eye space.
+bool isSamePlace(const osg::Matrixd& a, const osg::Matrixd& b, double rounding);
+
 /// Where drawables stand in eye space, to be asked for by drawable and place.
 class DrawablePlaces {
 public:
@@ -40,8 +44,7 @@ public:
     bool empty() const { return _places.empty(); }
     /// True if the drawable stands anywhere.
     bool has(const osg::Drawable& drawable) const;
-    /// True if the drawable stands there, but for the rounding of a product that is taken in another order.
-    /// @param rounding  of coordinates on the way there, if they are larger than those in eye space.
+    /// True if the drawable stands there: see isSamePlace().
     bool hasAt(const osg::Drawable& drawable, const osg::Matrixd& place, double rounding = 0.0) const;
 
 private:

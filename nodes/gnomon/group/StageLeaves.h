@@ -85,8 +85,10 @@ private:
 
     std::vector<DrawnLeaf> _all;
     std::map<const osgUtil::StateGraph*, ProgramPlaces> _places;
-    mutable std::optional<DrawablePlaces> _standing; ///< Of what is drawn as its arrays stand, once asked for,
-    mutable osg::Matrixd _lens;                      ///< by this lens.
+    mutable std::optional<osg::Matrixd> _lens;                 ///< Of the view that last asked what is drawn.
+    mutable std::vector<const osgUtil::RenderLeaf*> _standing; ///< Drawn by that lens as its arrays stand.
+    mutable std::size_t _next = 0;                             ///< The one after that which was found last, in order.
+    mutable std::optional<DrawablePlaces> _standingAt;         ///< The same; null until casters have another order.
 };
 
 /// What one stage draws, as its ShadowBin of number `number` sees it after the cull.
