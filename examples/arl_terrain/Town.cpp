@@ -249,8 +249,8 @@ void setLooks(ViewOptions& view, double hour) {
     view.ground = "none";
     const SunPosition sun = townSun(hour);
     view.lights = {sunAt(sun.azimuth, sun.elevation)};
-    view.ambient = 0.35;
-    view.diffuse = 0.9;
+    view.ambient = osg::Vec3d(0.35, 0.35, 0.35);
+    view.diffuse = osg::Vec3d(0.9, 0.9, 0.9);
     view.background = {0.62, 0.74, 0.88};
 }
 

@@ -35,18 +35,16 @@ osg::Vec4d moved(const osg::Vec4d& given, const SceneLights::Direction& by, cons
     return {now + centre * w, w};
 }
 
-osg::Vec4 grey(double level) {
-    const float l = static_cast<float>(level);
-    return {l, l, l, 1.0f};
-}
+osg::Vec4 rgba(const osg::Vec3d& colour) { return osg::Vec4(osg::Vec3(colour), 1.0f); }
+osg::Vec3d grey(double level) { return {level, level, level}; }
 
 double azimuthOf(const osg::Vec3d& way) { return osg::RadiansToDegrees(std::atan2(way.x(), way.y())); }
 
-/// What of a light's diffuse part a level ground in the distance gets.
-double farShare(const osg::Vec4d& place) {
-    if (isLamp(place)) return 0.0;
-    const osg::Vec3d way(place.x(), place.y(), place.z());
-    return std::max(way.z() / way.length(), 0.0);
+/// What of a light's diffuse part a level ground gets, there or in the distance.
+double shareOf(const osg::Vec4d& place, const std::optional<osg::Vec3d>& at) {
+    if (isLamp(place) && !at) return 0.0;
+    const osg::Vec3d way = wayTo(place, at.value_or(osg::Vec3d()));
+    return std::max(0.0, way.z() / way.length()); // 0 of a lamp right there
 }
 
 osg::Vec3d rgb(const osg::Vec4& colour) { return {colour.r(), colour.g(), colour.b()}; }
@@ -83,10 +81,10 @@ SceneLights::SceneLights(const ViewOptions& options, osg::Group& root, ShadowCas
     tellGroup();
 }
 
-osg::Vec3d SceneLights::farGround() const {
-    osg::Vec3d sum(_ambient, _ambient, _ambient);
-    const auto addLight = [&sum](const osg::Light& light, const osg::Vec4d& place) {
-        sum += rgb(light.getAmbient()) + rgb(light.getDiffuse()) * farShare(place);
+osg::Vec3d SceneLights::groundColour(const std::optional<osg::Vec3d>& at) const {
+    osg::Vec3d sum = _ambient;
+    const auto addLight = [&](const osg::Light& light, const osg::Vec4d& place) {
+        sum += rgb(light.getAmbient()) + rgb(light.getDiffuse()) * shareOf(place, at);
     };
     const std::vector<osg::Vec4d> where = places();
     for (std::size_t i = 0; i < where.size(); ++i)
@@ -123,19 +121,19 @@ void SceneLights::add(const osg::Vec4d& place, osg::Group& root) {
     own.source->setLight(new osg::Light(static_cast<unsigned>(freeNumber())));
     own.mount->addChild(own.source);
     standLight(*own.mount, *own.source->getLight(), place);
-    root.addChild(own.mount);
+    root.insertChild(0, own.mount); // before files that hold osgShadow's nodes, which take the lights met before them
     _own.push_back(own);
 }
 
-void SceneLights::addFill(double diffuse, osg::Group& root) {
+void SceneLights::addFill(const osg::Vec3d& diffuse, osg::Group& root) {
     _fill = new osg::LightSource;
     osg::Light& light = *new osg::Light(static_cast<unsigned>(freeNumber()));
     _fill->setLight(&light);
-    light.setAmbient(grey(0.0));
-    light.setDiffuse(grey(diffuse));
-    light.setSpecular(grey(0.0));
+    light.setAmbient(rgba(osg::Vec3d()));
+    light.setDiffuse(rgba(diffuse));
+    light.setSpecular(rgba(osg::Vec3d()));
     _fill->setStateSetModes(*root.getOrCreateStateSet(), osg::StateAttribute::ON);
-    root.addChild(_fill);
+    root.insertChild(0, _fill);
 }
 
 void SceneLights::standFill(const osg::Vec3d& centre) {
@@ -163,16 +161,16 @@ int SceneLights::freeNumber() const {
 }
 
 void SceneLights::colour(const ViewOptions& options, osg::Group& root) {
-    std::optional<double> ambient = options.ambient, diffuse = options.diffuse, fill = options.fill;
+    std::optional<osg::Vec3d> ambient = options.ambient, diffuse = options.diffuse, fill = options.fill;
     if (options.lighting && _scene.empty()) {
-        if (!ambient) ambient = options.lighting->ambient;
-        if (!diffuse) diffuse = options.lighting->diffuse / double(_own.size());
-        if (!fill && count() < mostLights) fill = options.lighting->fill;
+        if (!ambient) ambient = grey(options.lighting->ambient);
+        if (!diffuse) diffuse = grey(options.lighting->diffuse / double(_own.size()));
+        if (!fill && count() < mostLights) fill = grey(options.lighting->fill);
     }
-    if (fill.value_or(0.0) > 0.0 && count() > 0) addFill(*fill, root);
+    if (fill && fill->length2() > 0.0 && count() > 0) addFill(*fill, root);
     if (ambient) {
         osg::ref_ptr<osg::LightModel> model = new osg::LightModel;
-        model->setAmbientIntensity(grey(*ambient));
+        model->setAmbientIntensity(rgba(*ambient));
         root.getOrCreateStateSet()->setAttributeAndModes(model);
         _ambient = *ambient;
     }
@@ -180,8 +178,8 @@ void SceneLights::colour(const ViewOptions& options, osg::Group& root) {
     for (const Own& own : _own) all.push_back(own.source);
     for (const osg::ref_ptr<osg::LightSource>& source : all) {
         osg::Light& light = *source->getLight();
-        if (ambient) light.setAmbient(grey(0.0));
-        if (diffuse) light.setDiffuse(grey(*diffuse));
+        if (ambient) light.setAmbient(rgba(osg::Vec3d()));
+        if (diffuse) light.setDiffuse(rgba(*diffuse));
     }
 }
 

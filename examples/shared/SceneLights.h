@@ -47,8 +47,8 @@ public:
     std::size_t count() const { return _own.size() + _scene.size(); }
     /// Where all of them that cast shadows are now, homogeneous, world.
     std::vector<osg::Vec4d> places() const;
-    /// Colour of a white level ground in the distance, 0 to 1: suns light it, lamps do not.
-    osg::Vec3d farGround() const;
+    /// Colour of a white level ground, 0 to 1. @param at  where; nullopt: in the distance, where lamps do not light it.
+    osg::Vec3d groundColour(const std::optional<osg::Vec3d>& at) const;
 
 private:
     struct Own {
@@ -58,7 +58,7 @@ private:
     };
 
     void add(const osg::Vec4d& place, osg::Group& root);
-    void addFill(double diffuse, osg::Group& root);
+    void addFill(const osg::Vec3d& diffuse, osg::Group& root);
     void standFill(const osg::Vec3d& centre);
     int freeNumber() const;
     void colour(const ViewOptions& options, osg::Group& root);
@@ -69,7 +69,7 @@ private:
     std::vector<osg::ref_ptr<osg::LightSource>> _scene;
     osg::ref_ptr<osg::LightSource> _fill; ///< null: there is none. Casts no shadow.
     const double _viewAzimuth;            ///< degrees, of the camera as it first stands, seen from what it looks at.
-    double _ambient = 0.1;                ///< of the scene as a whole; OSG's without an option.
+    osg::Vec3d _ambient{0.1, 0.1, 0.1};   ///< of the scene as a whole; OSG's without an option.
 };
 
 } // namespace gnomon::examples

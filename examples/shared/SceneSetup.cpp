@@ -277,9 +277,10 @@ void SceneSetup::castAsComposed(const std::vector<ShadowSpec>& specs) {
 }
 
 osg::Vec3d SceneSetup::farColour() const {
-    const osg::Vec3d colour = lights->farGround();
+    if (hasAddedGround) return lights->groundColour(std::nullopt);
+    const osg::Vec3d colour = lights->groundColour(bounds.center());
     const double mean = (colour.x() + colour.y() + colour.z()) / 3.0;
-    return hasAddedGround ? colour : osg::Vec3d(mean, mean, mean);
+    return {mean, mean, mean};
 }
 
 void SceneSetup::toggleComposite() {

@@ -45,7 +45,7 @@ struct SceneSetup {
     bool blends() const { return group->getComposite() == ShadowCasterGroup::BLEND; }
 
     /// Colour of an added ground in the distance, which ends nowhere before a background of this colour. Without such a ground
-    /// a grey as light.
+    /// a grey as light as a white floor.
     osg::Vec3d farColour() const;
     /// Switches all shadows on or off.
     void show(bool shadows);

@@ -24,6 +24,14 @@ osg::Vec3d readVec3(Text text, double low = -largestNumber, double high = larges
     return {n[0], n[1], n[2]};
 }
 
+/// Of a light: one number is that of red, green and blue.
+osg::Vec3d readColour(Text text) {
+    constexpr double most = 10.0;
+    if (text.find(',') != std::string::npos) return readVec3(text, 0.0, most);
+    const double grey = readNumber(text, 0.0, most);
+    return {grey, grey, grey};
+}
+
 SunMoment readSun(Text text) {
     const std::size_t comma = text.find(',');
     const auto day = julianDay(text.substr(0, comma));
@@ -88,10 +96,10 @@ std::string usual(const ViewOptions& o, double Lighting::*part, const std::strin
 }
 
 void addFillOption(Options& table, ViewOptions& into) {
-    table.push_back({"--fill", "F",
+    table.push_back({"--fill", "F|r,g,b",
                      "diffuse part of a light without shadow, 0 to 10; it shines from the camera's side, 30 degrees "
                      "high and\n      at least 105 degrees from the first light, so that shapes stay visible in shadow",
-                     usual(into, &Lighting::fill, "none"), [&into](Text t) { into.fill = readNumber(t, 0.0, 10.0); }});
+                     usual(into, &Lighting::fill, "none"), [&into](Text t) { into.fill = readColour(t); }});
 }
 
 void addUpOption(Options& table, ViewOptions& into) {
@@ -174,12 +182,12 @@ void addLightOptions(Options& table, ViewOptions& into) {
     table.push_back({"--sun", "MOMENT,LAT,LON",
                      "sun as a light: UTC as 2026-06-21T15:00:00Z, degrees north and east; x is east, y north, z up",
                      "none", [&into](Text t) { shine(into, readSun(t)); }});
-    table.push_back({"--ambient", "A", "ambient light of the scene, 0 to 10; sets the lights' own ambient part to 0",
-                     usual(into, &Lighting::ambient, "0.1, OSG's"),
-                     [&into](Text t) { into.ambient = readNumber(t, 0.0, 10.0); }});
-    table.push_back({"--diffuse", "D", "diffuse part of each light, 0 to 10",
+    table.push_back({"--ambient", "A|r,g,b",
+                     "ambient light of the scene, 0 to 10; sets the lights' own ambient part to 0",
+                     usual(into, &Lighting::ambient, "0.1, OSG's"), [&into](Text t) { into.ambient = readColour(t); }});
+    table.push_back({"--diffuse", "D|r,g,b", "diffuse part of each light, 0 to 10",
                      usual(into, &Lighting::diffuse, "0.8, OSG's", " shared by all lights"),
-                     [&into](Text t) { into.diffuse = readNumber(t, 0.0, 10.0); }});
+                     [&into](Text t) { into.diffuse = readColour(t); }});
 }
 
 void addSize(Options& table, ViewOptions& into) {

@@ -35,11 +35,11 @@ struct ViewOptions {
     bool isUsual = false;           ///< the shadow is the usual one: files that hold techniques of their own need none.
     std::vector<osg::Vec4d> lights; ///< homogeneous, world.
     std::optional<SunMoment> sun;   ///< where one of them comes from.
-    std::optional<double> ambient;
-    std::optional<double> diffuse;
+    std::optional<osg::Vec3d> ambient; ///< red, green, blue, as are those below.
+    std::optional<osg::Vec3d> diffuse;
     /// Diffuse part of a light that casts no shadow. It shines from the camera's side, 30 degrees high and at least 105 degrees
     /// from the first light, so that shapes stay visible in shadow.
-    std::optional<double> fill;
+    std::optional<osg::Vec3d> fill;
     std::optional<Lighting> lighting; ///< nullopt: OSG's, without fill.
     std::string receiver;             ///< for every shadow that names none itself.
     std::string casters = "all";      ///< all, none, or a node's name.

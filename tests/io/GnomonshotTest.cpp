@@ -257,6 +257,36 @@ TEST_F(Gnomonshot, LightsShadowsSoftlyWhereNoOptionSaysOtherwise) {
     EXPECT_NEAR(red(*image, 50 - 20, 50), 255.0 * lit, 0.6);
 }
 
+/// The same ground: 0.1, 0.2 and 0.3 of ambient light, and 0.5, 0.4 and 0 sin 45° of the sun.
+TEST_F(Gnomonshot, TakesColoursOfLight) {
+    folder.write("plate.obj", plate(false));
+    const auto image = shoot(Arguments{"plate.obj", "-O", "noRotation", "--light", "1,0,1,0", "--shadow", "none",
+                                       "--ambient", "0.1,0.2,0.3", "--diffuse", "0.5,0.4,0"} +
+                             fromAbove);
+    const osg::Vec4 lit = image->getColor(90, 50);
+    const double sun = std::sqrt(0.5);
+    EXPECT_NEAR(lit.r(), 0.1 + 0.5 * sun, 0.6 / 255.0);
+    EXPECT_NEAR(lit.g(), 0.2 + 0.4 * sun, 0.6 / 255.0);
+    EXPECT_NEAR(lit.b(), 0.3, 0.6 / 255.0);
+}
+
+/// osgShadow takes the lights that a traversal has met before its nodes.
+TEST_F(Gnomonshot, LightsFilesThatHoldOsgShadowsNodes) {
+    const std::string
+        box = "osg::Geode { UniqueID 2 Drawables 2 {\n"
+              "  osg::ShapeDrawable { UniqueID 3 Shape TRUE { osg::Box { UniqueID 4 Center 0 0 1 HalfLengths 0.5 0.5 "
+              "0.5 } } }\n  osg::ShapeDrawable { UniqueID 5 Shape TRUE { osg::Box { UniqueID 6 Center 0 0 -0.1 "
+              "HalfLengths 3 3 0.1 } } } } }\n",
+        start = "#Ascii Scene\n#Version 161\n#Generator by hand\n";
+    folder.write("plain.osgt", start + box);
+    folder.write("shadowed.osgt", start + "osgShadow::ShadowedScene { UniqueID 1 Children 1 { " + box +
+                                      "} ShadowTechnique TRUE { osgShadow::ShadowMap { UniqueID 7 } } }\n");
+    const Arguments view = {"--shadow", "none", "--light", "1,0,1,0"};
+    EXPECT_GT(countDifferent(*shoot(Arguments{"plain.osgt"} + view + fromAbove),
+                             *shoot(Arguments{"shadowed.osgt"} + view + fromAbove), 40.0f),
+              50);
+}
+
 TEST_F(Gnomonshot, DrawsEightSamplesAPixelWithoutAnOption) {
     const Arguments view = {scene, "--shadow", "planar", "--size", "160x120", "--out", "o.png"};
     run(view);
