@@ -200,7 +200,7 @@ TEST(Race, StoppedEarlyItKeepsWhatItHas) {
     const auto until = [](int last) { return [last](int done, int) { return done < last; }; };
     const std::vector<Contender> one = {defaultsOf("ShadowMap")};
     EXPECT_FALSE(race(test::smallScene(), one, 4, shaders(), until(0)).contenders[0].cost);
-    EXPECT_TRUE(race(test::smallScene(), one, 4, shaders(), until(31)).contenders[0].cost);
+    EXPECT_TRUE(race(test::smallScene(), one, 4, shaders(), until(19)).contenders[0].cost);
 }
 
 TEST(Race, AContenderThatFailsIsOutAndTheOthersRun) {

@@ -100,11 +100,9 @@ struct Runner {
                                                StageViewer::Colour::BYTES);
         first = viewer->time().wall;
         for (int round = -warmUp; round < 0; ++round) draw(scene, 0, round);
-        viewer->setCamera(scene.camera);
-        viewer->draw();
         memory = residentMiB() - before;
         const std::size_t drawn = drawCalls();
-        viewer->draw();
+        draw(scene, 0, 0);
         draws = drawCalls() - drawn;
         primitives = primitivesOf(*viewer);
         passes = passesOf(*viewer);
@@ -133,10 +131,12 @@ public:
     }
 
     void run(const std::function<bool(int, int)>& progress) {
-        const int all = 2 * (_frames + warmUp);
+        const int all = 2 * _frames + warmUp; // the camera's motion goes on from the start
         for (int round = 0; round < all && progress(round, all); ++round) {
-            const std::size_t motion = round < all / 2 ? 0 : 1;
-            draw(motion, motion == 0 ? round : round - all / 2);
+            if (round < _frames)
+                draw(0, round + 1, true);
+            else
+                draw(1, round - _frames, round >= _frames + warmUp);
         }
     }
 
@@ -150,10 +150,10 @@ public:
     }
 
 private:
-    void draw(std::size_t motion, int round) {
+    void draw(std::size_t motion, int round, bool isTimed) {
         each(round, [&](Runner& runner) {
             const FrameTime time = runner.draw(_scene, motion, round);
-            if (round >= warmUp) runner.times[motion].add(time);
+            if (isTimed) runner.times[motion].add(time);
             runner.expected[motion] = runner.expectedNow(motion);
         });
     }

@@ -55,7 +55,7 @@ struct RaceResults {
 ///               plain viewer's: on OSMesa that holds the textures, too.
 /// Draws         calls that draw, and triangles handed to OpenGL, in one steady frame after twelve. Passes  cameras that draw in it.
 ///
-/// @param frames    of each of the two motions, after twelve to warm up.
+/// @param frames    of each of the two motions, after twelve to warm up: those of the camera's motion are drawn at the start.
 /// @param progress  called before each round with rounds done and to do; false stops the race, and what it has counts.
 RaceResults race(const ChartScene& scene, const std::vector<Contender>& contenders, int frames,
                  const ShaderCache& shaders, const std::function<bool(int done, int all)>& progress);
