@@ -342,7 +342,8 @@ Lookout lookout(const ViewOptions& options, const SceneSetup& setup) {
 void placeCamera(osg::Camera& camera, const ViewOptions& options, const SceneSetup& setup) {
     const Lookout place = lookout(options, setup);
     camera.setViewMatrixAsLookAt(place.eye, place.center, place.up);
-    camera.setClearColor(osg::Vec4(osg::Vec3(options.background.value_or(setup.farColour())), 1.0f));
+    const osg::Vec3d background = options.background ? *options.background : setup.farColour();
+    camera.setClearColor(osg::Vec4(osg::Vec3(background), 1.0f));
     if (options.orthographic) return placeOrthographic(camera, *options.orthographic, aspectOf(options));
     if (options.zNear) camera.setComputeNearFarMode(osg::Camera::DO_NOT_COMPUTE_NEAR_FAR);
     camera.setProjectionMatrixAsPerspective(options.fovy, aspectOf(options), options.zNear.value_or(1.0),
