@@ -181,4 +181,22 @@ TEST(Contenders, RefuseSettingsThatTheyLack) {
     EXPECT_THROW(contender.stage(test::smallScene(), Look::SHADED), std::invalid_argument);
 }
 
+/// Each technique at its defaults, and each point of the brief chart's list, which none may leave by being renamed.
+TEST(Entrants, OfABriefChartAreDefaultsBestsAndWhatIsAdvised) {
+    std::vector<std::string> specs, peersOf[2];
+    for (const bool brief : {false, true})
+        for (const Entrant& each : entrants({}, true, brief)) {
+            if (each.contender.kit != ourKit)
+                peersOf[brief].push_back(each.contender.technique);
+            else if (brief)
+                specs.push_back(each.contender.settings.at(0).second);
+        }
+    EXPECT_EQ(specs.size(), 7u + 8u);
+    for (const char* spec : {"planar", "box", "hull", "map", "volume", "auto", "traced", "volume:composite=blend",
+                             "map:edges=smooth,composite=blend,filter=fine,size=4096"})
+        EXPECT_EQ(std::count(specs.begin(), specs.end(), spec), 1) << spec;
+    EXPECT_EQ(peersOf[0].size(), 29u); // but for ShadowTexture at their best, too
+    EXPECT_EQ(peersOf[1].size(), 29u - 2u * 5u);
+}
+
 } // namespace

@@ -53,11 +53,36 @@ class Curves(unittest.TestCase):
         plain, best = report.default_and_best(report.curves_of(points, "steady")["Gnomon", "map"])
         self.assertEqual((plain["setting"], best["setting"]), ("size 1024", "fine"))
 
+    def test_take_the_fastest_of_settings_that_are_alike_to_a_hundredth_of_a_pixel_for_the_best(self):
+        points = [point("Gnomon", "volume", "relight", 9, 0.401, text="volume"),
+                  point("Gnomon", "volume", "blend", 5, 0.404, text="volume:composite=blend")]  # fmt: skip
+        plain, best = report.default_and_best(report.curves_of(points, "steady")["Gnomon", "volume"])
+        self.assertEqual((plain["setting"], best["setting"]), ("relight", "blend"))
+
+    def test_of_smooth_and_soft_maps_are_settings_of_the_map_in_the_chart(self):
+        points = [point("Gnomon", "map", "a", 5, 2, text="map"), point("Gnomon", "map, smooth", "b", 6, 1, text="map:edges=smooth")]
+        (settings,) = report.families(report.curves_of(points, "steady")).values()
+        self.assertEqual([one["setting"] for one in report.default_and_best(settings)], ["a", "b"])
+
     def test_find_those_that_none_is_as_fast_and_as_accurate_as(self):
         points = [point("Gnomon", "a", "", 1, 9), point("Gnomon", "b", "", 2, 9), point("Gnomon", "c", "", 3, 3),
                   point("Gnomon", "d", "", 1.5, 1, bad=True), point("Gnomon", "e", "", 4, 2)]  # fmt: skip
         every = [one for settings in report.curves_of(points, "steady").values() for one in settings]
         self.assertEqual([one["technique"] for one in report.front(every)], ["a", "c", "e"])
+
+
+class Chart(unittest.TestCase):
+    def test_names_ten_techniques_at_most_and_says_which_fail(self):
+        points = [point("Gnomon", name, "defaults", 2 + i, 1 + i) for i, name in enumerate(report.LOOKS)]
+        points += [point("osgShadow", f"Peer {i}", setting, 9 + i, 0.3 + 0.1 * i, bad=True) for i in range(14) for setting in ("defaults", "best")]
+        points += [point("osgShadow", "ShadowMap", "defaults", 6, 42), point("osgShadow", "Exact", "best", 70, 0.1)]
+        figure = report.chart_figure(results(*points), points, results(*points)["scenes"], "Title")
+        for axes in figure.axes:
+            names = [text.get_text() for text in axes.texts]
+            self.assertEqual(sorted(names), sorted([*report.LOOKS, "ShadowMap", "Exact", "Peer 0"]))
+            self.assertLessEqual(len(names), 10)
+            self.assertGreaterEqual(min(text.get_fontsize() for text in axes.texts + axes.get_xticklabels()), 9)
+        self.assertEqual(figure.axes[0].get_xlim(), figure.axes[1].get_xlim())
 
 
 class Findings(unittest.TestCase):

@@ -54,6 +54,7 @@ struct ChartOptions {
     bool model = false;                       ///< judge techniques on the files against rays instead.
     std::optional<unsigned> random;           ///< search so many random scenes instead.
     unsigned seed = 1;                        ///< of the first of them.
+    bool brief = false;                       ///< defaults and best settings alone.
     bool quick = false, list = false, help = false;
 
     int frameCount() const { return frames.value_or(quick ? 12 : 60); }
@@ -83,6 +84,11 @@ void addChartOptions(Options& table, ChartOptions& into) {
                      "small pictures, few frames, narrow sweeps, and three scenes if none is named: at most five "
                      "minutes on\n      two cores",
                      "", [&into](Text) { into.quick = true; }});
+    table.push_back(
+        {"--brief", "",
+         "measure each technique at its defaults and at its best alone, and one of variants that are alike: "
+         "less\n      than half the time",
+         "", [&into](Text) { into.brief = true; }});
     table.push_back({"--frames", "N", "frames to time for each motion, 2 to 10000", "60, with --quick 12",
                      [&into](Text t) { into.frames = readWhole(t, leastFrames, mostFrames); }});
     table.push_back(
@@ -457,11 +463,13 @@ ChartPlan planOf(const ChartOptions& options) {
     if (options.quick) plan.seconds = quickSeconds;
     plan.flickerFrames = options.flickerFrames();
     plan.sweep = options.quick ? SweepWidth::NARROW : SweepWidth::WIDE;
-    plan.disc = !options.quick;
+    plan.disc = !options.quick && !options.brief;
+    plan.brief = options.brief;
     plan.made = {{"size", std::to_string(options.view.width) + "x" + std::to_string(options.view.height)},
                  {"frames", std::to_string(plan.frames)},
                  {"flicker frames", std::to_string(plan.flickerFrames)},
-                 {"sweep", options.quick ? "narrow" : "wide"}};
+                 {"sweep", options.quick ? "narrow" : "wide"},
+                 {"settings", options.brief ? "brief" : "all"}};
     return plan;
 }
 

@@ -29,12 +29,13 @@ except ImportError as missing:
     sys.exit(f"gnomonchart: the report needs {missing.name}. Install python3-matplotlib and python3-jinja2.")
 
 OURS = "Gnomon"
-COLOURS = {"planar": "#0072b2", "box": "#cc79a7", "hull": "#009e73", "map": "#e69f00", "map, smooth": "#56b4e9",
-           "map, soft": "#8c510a", "volume": "#5e3c99", "auto": "#d62728", "traced": "#111827"}  # fmt: skip
-GREY = "#8b93a1"
+LOOKS = {"auto": ("*", "#c1121f", 2.2), "map": ("s", "#b45309", 0.9), "volume": ("D", "#5e3c99", 0.85),
+         "traced": ("P", "#111827", 1.25), "planar": ("v", "#0067a5", 1.1), "hull": ("^", "#00734d", 1.1),
+         "box": ("p", "#9d3f78", 1.1)}  # marker, colour, and size by which all weigh alike; in the order of the key
+GREY = "#858c99"
 LIGHTS = {"steady": "The light stands still, the camera moves", "moving": "The light moves with every frame"}
 LEAST_MS, LEAST_PX = 0.05, 0.02  # of the axes
-plt.rcParams.update({"font.size": 9, "svg.hashsalt": "gnomon", "axes.spines.top": False, "axes.spines.right": False,
+plt.rcParams.update({"font.size": 10, "svg.hashsalt": "gnomon", "axes.spines.top": False, "axes.spines.right": False,
                      "hatch.linewidth": 0.6, "figure.dpi": 100, "savefig.dpi": 200})  # fmt: skip
 
 
@@ -97,12 +98,13 @@ def shown(settings):
 
 
 def default_and_best(settings):
-    """A technique as it comes, and its most accurate setting that is sound; the faster one of two that are alike."""
+    """A technique at its defaults, and at its best: the least median error of those that are sound in every scene, and of
+    those that are alike to a hundredth of a pixel the fastest."""
     settings = shown(settings)
     if not settings:
         return None, None
     plain = min(settings, key=lambda one: (one["setting"] != "defaults", len(one["spec"])))
-    return plain, min(settings, key=lambda one: (not one["sound"], one["px"], one["ms"]))
+    return plain, min(settings, key=lambda one: (not one["sound"], round(one["px"], 2), one["ms"]))
 
 
 def front(settings):
@@ -127,100 +129,110 @@ def place_labels(axes, labels, markers):
     """Puts each name beside its marker where it covers the least of what is there already."""
     figure = axes.figure
     figure.canvas.draw()
-    taken = [(*axes.transData.transform(marker), 6, 6) for marker in markers]
+    taken = [(*axes.transData.transform(marker), 7, 7) for marker in markers]
     frame = axes.get_window_extent()
     for x, y, name, colour, weight in labels:
         px, py = axes.transData.transform((x, y))
         text = axes.annotate(name, (x, y), xytext=(0, 0), textcoords="offset points", color=colour, fontweight=weight,
-                             fontsize=8.5, ha="center", va="center", zorder=6,
+                             ha="center", va="center", zorder=7, arrowprops={"arrowstyle": "-", "color": colour, "lw": 0.6, "shrinkB": 6},
                              path_effects=[withStroke(linewidth=2.5, foreground="white")])  # fmt: skip
         size = text.get_window_extent()
         w, h = size.width / 2 + 1, size.height / 2
         best = None
-        for reach in (1.0, 1.8, 2.8, 4.0):
+        for reach in (1.0, 1.6, 2.4, 3.4):
             for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (-1, 1), (1, -1), (-1, -1)):
-                cx, cy = px + dx * (w + 7 * reach), py + dy * (h + 6) * reach
+                cx, cy = px + dx * (w + 8 * reach), py + dy * (h + 8) * reach
                 over = sum(max(0, w + tw - abs(cx - tx)) * max(0, h + th - abs(cy - ty)) for tx, ty, tw, th in taken)
                 outside = max(0, frame.x0 - (cx - w)) + max(0, cx + w - frame.x1) + max(0, cy + h - frame.y1)
-                cost = over + 40 * outside + 6 * reach
+                cost = over + 40 * outside + 25 * reach
                 if best is None or cost < best[0]:
-                    best = (cost, cx, cy)
+                    best = (cost, cx, cy, reach)
         taken.append((best[1], best[2], w, h))
         points = 72 / figure.dpi
         text.xyann = ((best[1] - px) * points, (best[2] - py) * points)
+        text.arrow_patch.set_visible(best[3] > 1)
 
 
-def draw_panel(axes, points, scenes, light):
-    curves = curves_of(points, light)
-    everything = [one for settings in curves.values() for one in settings]
-    labels, peers, markers = [], [], []
+def families(curves):
+    """{(kit, technique): settings}, smooth and soft edges of a map among those of the map."""
+    pooled = {}
     for (kit, technique), settings in curves.items():
-        plain, best = default_and_best(settings)
-        if not plain:
+        pooled.setdefault((kit, technique.split(",")[0] if kit == OURS else technique), []).extend(settings)
+    return pooled
+
+
+def named_peers(marks):
+    """Of osgShadow three have a name: ShadowMap, which programs begin with, the fastest below 1 px, and the most accurate."""
+    plain = [mark for mark in marks if mark[0]["technique"] == "ShadowMap"][:1]
+    accurate = sorted((mark for mark in marks if mark[0]["px"] < 1), key=lambda mark: mark[0]["ms"])[:1]
+    exact = sorted(marks, key=lambda mark: (mark[0]["px"], mark[0]["ms"]))[:1]
+    return list({mark[0]["technique"]: mark for mark in exact + accurate + plain}.values())
+
+
+def draw_mark(axes, one, at, filled, marker, colour, size, zorder):
+    """Hollow at its defaults, filled at its best, crossed out if it fails in a scene."""
+    axes.scatter(*at, s=size, marker=marker, color=colour if filled else "white", edgecolors=colour, linewidths=1.3, zorder=zorder)
+    if not one["sound"]:
+        axes.scatter(*at, s=0.3 * size, marker="x", color="white" if filled else colour, linewidths=1.1, zorder=zorder)
+
+
+def draw_panel(axes, points, light):
+    labels, peers, markers = [], [], []
+    for (kit, technique), settings in families(curves_of(points, light)).items():
+        marks = [(one, (max(one["ms"], LEAST_MS), max(one["px"], LEAST_PX)), filled)
+                 for one, filled in zip(default_and_best(settings), (False, True)) if one]  # fmt: skip
+        if not marks:
             continue
-        ours = kit == OURS
-        colour = COLOURS.get(technique, "#374151") if ours else GREY
-        if ours:
-            others = [one for one in shown(settings) if one is not plain and one is not best]
-            axes.scatter([max(one["ms"], LEAST_MS) for one in others], [max(one["px"], LEAST_PX) for one in others],
-                         s=7, color=colour, alpha=0.55, linewidths=0, zorder=3)  # fmt: skip
-        place = [(max(one["ms"], LEAST_MS), max(one["px"], LEAST_PX)) for one in (plain, best)]
-        markers += place
-        axes.plot(*zip(*place), color=colour, lw=1.0 if ours else 0.6, alpha=0.7, zorder=2)
-        for at, one, marker, size in ((place[1], best, "D", 26 if ours else 13), (place[0], plain, "o", 42 if ours else 20)):
-            axes.scatter(*at, s=size, marker=marker, color=colour if one["sound"] else "white", edgecolors=colour,
-                         linewidths=1.2, zorder=5 if ours else 4)  # fmt: skip
-        if ours:
-            labels.append((*place[0], technique, colour, "bold"))
+        if marks[0][0] is marks[1][0]:
+            marks = marks[:1]
+        markers += [at for _, at, _ in marks]
+        if kit == OURS:
+            marker, colour, weight = LOOKS.get(technique, ("h", "#374151", 1.0))
+            if len(marks) == 2:
+                axes.plot(*zip(marks[0][1], marks[1][1]), color=colour, lw=1.1, alpha=0.75, zorder=4)
+            for one, at, filled in marks:
+                draw_mark(axes, one, at, filled, marker, colour, 62 * weight, 6)
+            labels.append((*marks[0][1], technique, colour, "bold"))
         else:
-            peers += [(one, at) for one, at in ((plain, place[0]), (best, place[1]))]
-    # Of osgShadow those names alone that are its best for their time: few, and the table has all.
-    named = set()
-    for one in front([{**each, "sound": True} for each, _ in peers]):
-        if one["technique"] not in named:
-            at = next(at for each, at in peers if each["technique"] == one["technique"] and each["setting"] == one["setting"])
-            labels.append((*at, one["technique"], "#4b5563", "normal"))
-            named.add(one["technique"])
-    axes.set(xscale="log", yscale="log", ylabel="edge of the shadow is off by (px)")
-    axes.set_title(LIGHTS[light], loc="left", fontsize=9.5, fontweight="bold")
-    axes.margins(0.08)
-    axes.autoscale_view()
-    steps = front(everything)
-    if steps:
-        left, right = axes.get_xlim()
-        bottom, top = axes.get_ylim()
-        xs = [max(one["ms"], LEAST_MS) for one in steps] + [right]
-        ys = [top] + [max(one["px"], LEAST_PX) for one in steps]
-        axes.step(xs, ys[: len(xs)], where="pre", color="#fbe3b0", lw=6, zorder=1, solid_capstyle="butt")
-        axes.set(xlim=(left, right), ylim=(bottom, top))
-    floors = [scene["boundaryFloorPixels"] for scene in scenes if scene["boundaryFloorPixels"]]
-    if floors:
-        axes.axhline(statistics.median(floors), color="#111827", lw=0.9, ls=(0, (5, 4)), zorder=1)
-    for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_locator(matplotlib.ticker.LogLocator(subs=(1, 2, 5), numticks=12))
-        axis.set_minor_locator(matplotlib.ticker.NullLocator())
-        axis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda value, _: f"{value:g}"))
-    axes.grid(color="#eef0f3", lw=0.8)
-    axes.set_axisbelow(True)
-    place_labels(axes, labels, markers)
+            for one, at, filled in marks:
+                draw_mark(axes, one, at, filled, "o", GREY, 30, 3)
+            peers += marks
+    labels += [(*at, one["technique"], "#4b5563", "normal") for one, at, _ in named_peers(peers)]
+    axes.set_title(LIGHTS[light], loc="left", fontsize=10.5, fontweight="bold")
+    return labels, markers
 
 
 def chart_figure(results, points, scenes, title):
-    figure, panels = plt.subplots(2, 1, figsize=(5.6, 8.8))
-    figure.subplots_adjust(left=0.12, right=0.98, top=0.925, bottom=0.13, hspace=0.26)
-    for axes, light in zip(panels, LIGHTS):
-        draw_panel(axes, points, scenes, light)
-        axes.set_xlabel("time that shadows add to a frame (ms)")
-    made = dict(results["made"])
-    figure.suptitle(title, x=0.01, ha="left", fontsize=11, fontweight="bold")
-    key = [Line2D([], [], color="#374151", marker="o", ls="", ms=6, label="as it comes"),
-           Line2D([], [], color="#374151", marker="D", ls="", ms=5, label="its most accurate setting"),
-           Line2D([], [], color="#374151", marker="o", ls="", ms=6, mfc="white", label="hollow: fails in a scene"),
-           Line2D([], [], color=GREY, marker="o", ls="", ms=5, label="grey: osgShadow"),
-           Line2D([], [], color="#fbe3b0", lw=6, label="best for their time"),
+    figure, panels = plt.subplots(2, 1, figsize=(6.4, 9.6), sharex=True, sharey=True)
+    figure.subplots_adjust(left=0.115, right=0.985, top=0.915, bottom=0.135, hspace=0.14)
+    names = [draw_panel(axes, points, light) for axes, light in zip(panels, LIGHTS)]
+    floors = [scene["boundaryFloorPixels"] for scene in scenes if scene["boundaryFloorPixels"]]
+    for axes, (labels, markers) in zip(panels, names):
+        axes.set(xscale="log", yscale="log", ylabel="edge of the shadow is off by (px)")
+        axes.margins(0.07)
+        if floors:
+            axes.axhline(statistics.median(floors), color="#111827", lw=0.9, ls=(0, (5, 4)), zorder=1)
+        for axis in (axes.xaxis, axes.yaxis):
+            axis.set_major_locator(matplotlib.ticker.LogLocator(subs=(1, 2, 5), numticks=12))
+            axis.set_minor_locator(matplotlib.ticker.NullLocator())
+            axis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda value, _: f"{value:g}"))
+        axes.tick_params(labelbottom=True)
+        axes.grid(color="#eef0f3", lw=0.8)
+        axes.set_axisbelow(True)
+    for axes, (labels, markers) in zip(panels, names):
+        place_labels(axes, labels, markers)
+    panels[1].set_xlabel("time that shadows add to a frame (ms): left is faster, down is more accurate")
+    figure.suptitle(title, x=0.015, y=0.99, ha="left", va="top", fontsize=12, fontweight="bold")
+    dark = "#374151"
+    key = [Line2D([], [], color=dark, marker="o", ls="", ms=7, mfc="white", label="at its defaults"),
+           Line2D([], [], color=dark, marker="o", ls="", ms=7, label="at its best: the least error"),
+           Line2D([], [], color=dark, marker="x", ls="", ms=6, label="crossed: fails in a scene"),
+           Line2D([], [], color=GREY, marker="o", ls="", ms=6, label="grey circles: osgShadow"),
            Line2D([], [], color="#111827", lw=0.9, ls="--", label="one exact ray a pixel")]  # fmt: skip
-    figure.legend(handles=key, loc="lower left", ncols=3, fontsize=7.5, frameon=False, borderaxespad=0.2,
-                  title=made.get("renderer", ""), title_fontsize=7)  # fmt: skip
+    figure.legend(handles=key, loc="lower left", ncols=2, fontsize=9.5, frameon=False, borderaxespad=0.3)
+    made = dict(results["made"])
+    facts = [made[name] for name in ("renderer", "processor") if name in made] + ([made["date"][:10]] if "date" in made else [])
+    figure.text(0.015, 0.948, ", ".join(facts), fontsize=9.5, color="#4b5563")
     return figure
 
 
@@ -405,7 +417,7 @@ CHART_PAGE = HEAD + """
 <p>Every technique of Gnomon and of osgShadow, measured on the same scenes in the same run. Left is faster, down is more
 accurate. The edge of a shadow is off by so many pixels that 95 % of it lie nearer to the edge by rays.</p>
 <figure><img src="figure.svg" alt="error against time, all scenes"><figcaption>Medians over {{ results.scenes|length }}
-scene{{ "s" if results.scenes|length != 1 }}. Small dots are other settings.</figcaption></figure>
+scene{{ "s" if results.scenes|length != 1 }}. The table has all settings.</figcaption></figure>
 <p>{{ summary }} {{ kept }}</p>
 {% if rows %}<details><summary>The budgets of auto</summary><div class="wide"><table class="sortable"><thead><tr>
 <th class="text">scene</th><th class="text">auto</th><th class="text">light</th><th>px</th><th>ms</th><th>kept</th>
@@ -441,7 +453,7 @@ def render(page, **values):
 
 def report_chart(folder, results):
     scenes = results["scenes"]
-    title = f"{len(scenes)} scenes: how fast shadows are, and how wrong" if len(scenes) != 1 else scenes[0]["title"]
+    title = f"How fast shadows are, and how wrong: medians over {len(scenes)} scenes" if len(scenes) != 1 else scenes[0]["title"]
     save(chart_figure(results, results["points"], scenes, title), folder, "figure")
     for scene in scenes:
         points = [point for point in results["points"] if point["scene"] == scene["name"]]

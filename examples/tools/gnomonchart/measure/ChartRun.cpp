@@ -44,7 +44,7 @@ public:
         : _plan(plan),
           _save(save),
           _stops(stops),
-          _entries(entrants(plan.techniques, true)),
+          _entries(entrants(plan.techniques, true, plan.brief)),
           _scenes(scenesLeft(plan)),
           _progress(sceneWork() * double(_scenes.size())) {
         _results.kept = plan.kept;

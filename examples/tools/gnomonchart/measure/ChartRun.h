@@ -20,6 +20,7 @@ struct ChartPlan {
     int frames = 60;        ///< timed, of each motion.
     int flickerFrames = 16; ///< of each of the two films.
     SweepWidth sweep = SweepWidth::WIDE;
+    bool brief = false;                                    ///< only settings that are brief, see Contender.
     bool disc = true;                                      ///< measure against the sun's disc too.
     std::vector<std::pair<std::string, std::string>> made; ///< what is known of the run already.
     nlohmann::ordered_json kept = ChartResults().kept;     ///< what is measured already of `scenes`, see keptOf().

@@ -12,6 +12,7 @@
 #include <osgUtil/CullVisitor>
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 
 namespace gnomon::examples {
@@ -196,6 +197,25 @@ constexpr GnomonPoint gnomonPoints[] = {
     {"traced", "blend", "traced:composite=blend"},
 };
 
+/// Beside the defaults: the most accurate setting of each technique in the chart of 16 scenes, the faster one of settings that are
+/// alike to a hundredth of a pixel. And two that docs/evidence/performance.md advises.
+constexpr const char* briefSpecs[] = {
+    "planar:composite=blend",           "hull:composite=blend",
+    "map:edges=smooth,composite=blend", "map:edges=smooth,composite=blend,filter=fine,size=4096",
+    "volume:composite=blend",           "auto:composite=blend",
+    "auto:error=0.4,composite=blend",   "traced:composite=blend",
+};
+
+/// Variants of osgShadow's classes that were neither faster nor more accurate in that chart than one of the same class.
+constexpr const char* likeOthers[] = {"Minimal", "MinimalCullBounds", "LightSpacePerspective DB",
+                                      "ViewDependent ortho x2", "ViewDependent perspective x2"};
+
+/// @param spec  of a point.
+bool isBrief(const std::string& spec) {
+    return spec.find(':') == std::string::npos ||
+           std::find(std::begin(briefSpecs), std::end(briefSpecs), spec) != std::end(briefSpecs);
+}
+
 ShadowSpec specFor(const std::string& text, Receives receives, const ChartScene& scene) {
     ShadowSpec spec = parseShadowSpec(text);
     if (receives == Receives::EVERYTHING) return spec;
@@ -221,6 +241,7 @@ std::vector<Contender> gnomonContenders() {
         result.push_back(gnomonContender(point.spec, point.receives));
         result.back().technique = point.technique;
         result.back().setting = point.setting;
+        result.back().isBrief = isBrief(point.spec);
     }
     return result;
 }
@@ -245,13 +266,14 @@ std::vector<std::string> chartTechniques() {
 Contender peerContender(const Peer& peer, const std::string& setting, const Settings& settings) {
     Contender result{"osgShadow", peer.name, setting, settings, {}};
     if (!peer.partsCastAndReceive) result.receives = Receives::FLAT;
+    result.isBrief = std::find(std::begin(likeOthers), std::end(likeOthers), peer.name) == std::end(likeOthers);
     result.stage = [&peer, settings](const ChartScene& scene, Look look) {
         return std::make_unique<PeerStaging>(peer, settings, scene, look);
     };
     return result;
 }
 
-std::vector<Entrant> entrants(const std::vector<std::string>& parts, bool best) {
+std::vector<Entrant> entrants(const std::vector<std::string>& parts, bool best, bool brief) {
     const auto holds = [](const std::string& technique, const std::string& part) {
         return technique.find(part) != std::string::npos;
     };
@@ -265,10 +287,12 @@ std::vector<Entrant> entrants(const std::vector<std::string>& parts, bool best) 
     };
     std::vector<Entrant> result;
     for (Contender& contender : gnomonContenders())
-        if (isAsked(contender.technique)) result.push_back({std::move(contender)});
+        if (isAsked(contender.technique) && (contender.isBrief || !brief)) result.push_back({std::move(contender)});
     for (const Peer& peer : peers()) {
         if (!isAsked(peer.name)) continue;
-        result.push_back({peerContender(peer, "defaults", {})});
+        Contender plain = peerContender(peer, "defaults", {});
+        if (brief && !plain.isBrief) continue;
+        result.push_back({std::move(plain)});
         if (best && !peer.knobs.empty()) result.push_back({peerContender(peer, "best", {}), &peer});
     }
     return result;

@@ -23,6 +23,7 @@ struct Contender {
     /// @throws std::invalid_argument, one sentence, if it does not suit the scene.
     std::function<std::unique_ptr<Staging>(const ChartScene& scene, Look look)> stage;
     Receives receives = Receives::EVERYTHING;
+    bool isBrief = true; ///< whether a brief chart has it: a technique at its defaults, at its best, or as advised.
 };
 
 /// The scene without shadows, which all are timed against.
@@ -49,7 +50,8 @@ struct Entrant {
 
 /// Gnomon's contenders, and peers at their defaults and, if asked for, at their best.
 /// @param parts  of techniques' names; none: all.
+/// @param brief  only those that are brief.
 /// @throws std::invalid_argument, one sentence, if a part is in no technique's name.
-std::vector<Entrant> entrants(const std::vector<std::string>& parts, bool best);
+std::vector<Entrant> entrants(const std::vector<std::string>& parts, bool best, bool brief = false);
 
 } // namespace gnomon::examples
