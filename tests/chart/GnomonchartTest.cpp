@@ -195,6 +195,16 @@ TEST_F(Gnomonchart, AResumedRunMeasuresOnlyWhatIsLeft) {
     EXPECT_NE(refusal(more).find("there is no file"), std::string::npos);
 }
 
+/// The map as it comes, the one with smooth edges, and the finest.
+TEST_F(Gnomonchart, ABriefRunMeasuresDefaultsAndBests) {
+    ASSERT_EQ(run({lab8, "--brief", "--quick", "--technique", "map", "--size", "160x120", "--frames", "2", "--flicker",
+                   "0", "--out", "o"})
+                  .status,
+              0);
+    ASSERT_EQ(results("o")["points"].size(), 3u);
+    EXPECT_EQ(results("o")["points"][0]["settings"][0][1], "map");
+}
+
 TEST_F(Gnomonchart, WhatCannotBeDoneIsSaidInOneSentence) {
     EXPECT_NE(refusal({"--scene", "moon"}).find("no scene is named \"moon\". Allowed: lab8-45"), std::string::npos);
     EXPECT_EQ(refusal({lab8, "--technique", "volumetric"}),
