@@ -27,8 +27,9 @@ inline osg::Matrixd toOsg(const glm::dmat4& matrix) { return osg::Matrixd(&matri
 
 /// Converts a vector.
 inline glm::dvec3 toGlm(const osg::Vec3d& v) { return {v.x(), v.y(), v.z()}; }
-/// Converts a vector, a plane or a homogeneous point.
+/// Converts a vector.
 inline osg::Vec4 toOsg(const glm::vec4& v) { return {v.x, v.y, v.z, v.w}; }
+/// Converts a vector, a plane or a homogeneous point.
 inline glm::dvec4 toGlm(const osg::Vec4d& v) { return {v.x(), v.y(), v.z(), v.w()}; }
 
 } // namespace gnomon

@@ -334,7 +334,7 @@ TEST_F(BadInput, ValuesThatCannotBeUsed) {
          "\"plane\" is not a shadow technique. Allowed: none, planar, box, hull, map, volume, traced, auto."},
         {"--shadow",
          {"planar:soft=1"},
-         "the technique planar has no key \"soft\". Allowed: composite, dark, receiver."},
+         "the technique planar has no key \"soft\". Allowed: composite, dark, terminator, receiver."},
         {"--size",
          {"0x600", "800x0", "0", "1000000x1000000", "1000000x1", "-8x6", "8x", "x6", "8.5x6", "8x6x4", "nanxnan", "800",
           "99999999999999999999x1"},
@@ -406,7 +406,7 @@ TEST_F(BadInput, OptionsThatDoNotFit) {
         {{"--size="}, "--size  cannot be used. Allowed: WIDTHxHEIGHT from 1x1 to 16384x16384 pixels."},
         {{"--shadow", "map:side=3"},
          "--shadow map:side=3 cannot be used: the technique map has no key \"side\". Allowed: size, filter, cascades, "
-         "edges, sun-angle, lamp-size, radius, view, composite, dark, receiver."},
+         "edges, sun-angle, lamp-size, radius, view, composite, dark, terminator, receiver."},
         {{"--siz=8x8"}, "there is no option --siz. See --help for all options."},
         {{"--"}, "there is no option --. See --help for all options."},
         {{""}, "there is no file \"\"."},

@@ -161,7 +161,7 @@ TEST(ShadowSpec, KeysAreReadAndSet) {
 
 TEST(ShadowSpec, IsRefusedWithWhatIsAllowed) {
     const std::string names = "Allowed: none, planar, box, hull, map, volume, traced, auto.",
-                      keys = "Allowed: composite, dark, receiver.", cannot = " cannot be used. Allowed: ";
+                      keys = "Allowed: composite, dark, terminator, receiver.", cannot = " cannot be used. Allowed: ";
     const std::pair<std::string, std::string> cases[] = {
         {"plane", "\"plane\" is not a shadow technique. " + names},
         {"", "\"\" is not a shadow technique. " + names},

@@ -68,11 +68,11 @@ osg::Vec3d row(const osg::Matrixd& matrix, int i) { return {matrix(i, 0), matrix
 std::uint64_t word(unsigned high, unsigned low) { return std::uint64_t{high} << 32 | low; }
 
 void mixGeometry(const osg::Geometry& geometry, Fingerprint& into) {
-    for (const osg::Array* array : {verticesOf(geometry), geometry.getNormalArray()}) {
+    for (const osg::Array* array : {verticesOf(geometry), normalArrayOf(geometry)}) {
         into.mix(static_cast<const void*>(array));
         if (!array) continue;
         into.mix(word(array->getModifiedCount(), array->getNumElements()));
-        into.mix(word(array->getNormalize(), static_cast<unsigned>(array->getBinding())));
+        into.mix(std::uint64_t{array->getNormalize()});
     }
     into.mix(std::uint64_t{geometry.getNumPrimitiveSets()});
     for (const auto& primitives : geometry.getPrimitiveSetList()) {
@@ -378,7 +378,7 @@ void CasterVisitor::holdSources(const osg::Drawable& drawable,
                                 std::vector<osg::ref_ptr<const osg::Referenced>>& sources) {
     if (const osg::Geometry* geometry = drawable.asGeometry()) {
         sources.emplace_back(verticesOf(*geometry));
-        sources.emplace_back(geometry->getNormalArray());
+        if (const osg::Array* normals = normalArrayOf(*geometry)) sources.emplace_back(normals);
         for (const auto& primitives : geometry->getPrimitiveSetList()) {
             sources.emplace_back(primitives);
             if (const osg::BufferData* commands = indirectCommands(*primitives)) sources.emplace_back(commands);

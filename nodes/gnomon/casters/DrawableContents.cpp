@@ -52,7 +52,7 @@ std::uint64_t contentsOf(const osg::Drawable& drawable, bool all) {
     if (all) geometry->getArrayList(arrays);
     for (const auto& array : arrays) mixData(array, found);
     if (!all)
-        for (const osg::Array* array : {verticesOf(*geometry), geometry->getNormalArray()}) mixData(array, found);
+        for (const osg::Array* array : {verticesOf(*geometry), normalArrayOf(*geometry)}) mixData(array, found);
     for (const auto& primitives : geometry->getPrimitiveSetList()) {
         mixData(primitives, found);
         mixData(indirectCommands(*primitives), found);

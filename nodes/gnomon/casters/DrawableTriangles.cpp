@@ -208,10 +208,15 @@ const osg::Array* verticesOf(const osg::Geometry& geometry) {
     return geometry.getNumVertexAttribArrays() > 0 ? geometry.getVertexAttribArray(0) : nullptr;
 }
 
+const osg::Array* normalArrayOf(const osg::Geometry& geometry) {
+    const osg::Array* array = geometry.getNormalArray();
+    return array && array->getBinding() == osg::Array::BIND_PER_VERTEX ? array : nullptr;
+}
+
 std::vector<osg::Vec4> normalsOf(const osg::Drawable& drawable) {
     const osg::Geometry* geometry = drawable.asGeometry();
-    const osg::Array* array = geometry ? geometry->getNormalArray() : nullptr;
-    if (!array || array->getBinding() != osg::Array::BIND_PER_VERTEX || array->getDataSize() < 3) return {};
+    const osg::Array* array = geometry ? normalArrayOf(*geometry) : nullptr;
+    if (!array || array->getDataSize() < 3) return {};
     if (array->getDataType() == GL_FLOAT) return floatsOf<float>(*array);
     return array->getDataType() == GL_DOUBLE ? floatsOf<double>(*array) : integersOf(*array);
 }

@@ -180,7 +180,9 @@ void readTriangles(const osg::Drawable& drawable, TriangleDecoder& into);
 /// The vertices that OpenSceneGraph's functors take of a geometry; null if it has none.
 const osg::Array* verticesOf(const osg::Geometry& geometry);
 
-/// A geometry's normals, one a vertex, of any length, whatever their w; none if it has none, or one for several.
+/// A geometry's normals, if it has one a vertex; null otherwise.
+const osg::Array* normalArrayOf(const osg::Geometry& geometry);
+/// These, of any length, whatever their w; none without an array.
 std::vector<osg::Vec4> normalsOf(const osg::Drawable& drawable);
 
 /// True if OpenSceneGraph can hand out the drawable's triangles: not those of particles, for one.

@@ -17,7 +17,9 @@
 #include <algorithm>
 #include <climits>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <numeric>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -243,20 +245,38 @@ bool isSamePlace(const osg::Matrixd& a, const osg::Matrixd& b, double rounding) 
 }
 
 void DrawablePlaces::add(const osg::Drawable& drawable, const osg::Matrixd& place) {
-    _places.insert({{&drawable, along(place)}, place});
+    _places.push_back({&drawable, along(place), place});
+}
+
+std::pair<DrawablePlaces::Order::const_iterator, DrawablePlaces::Order::const_iterator>
+DrawablePlaces::between(const osg::Drawable& drawable, double low, double high) const {
+    const auto isBefore = [this](unsigned i, const std::pair<const osg::Drawable*, double>& key) {
+        return std::less<>()(std::make_pair(_places[i].drawable, _places[i].along), key);
+    };
+    if (_order.size() != _places.size()) {
+        _order.resize(_places.size());
+        std::iota(_order.begin(), _order.end(), 0u);
+        std::sort(_order.begin(), _order.end(), [&](unsigned a, unsigned b) {
+            return isBefore(a, {_places[b].drawable, _places[b].along});
+        });
+    }
+    const auto first = std::lower_bound(_order.begin(), _order.end(), std::make_pair(&drawable, low), isBefore);
+    auto end = first;
+    while (end != _order.end() && _places[*end].drawable == &drawable && _places[*end].along <= high) ++end;
+    return {first, end};
 }
 
 bool DrawablePlaces::has(const osg::Drawable& drawable) const {
-    const auto found = _places.lower_bound({&drawable, -std::numeric_limits<double>::infinity()});
-    return found != _places.end() && found->first.first == &drawable;
+    constexpr double never = std::numeric_limits<double>::infinity();
+    const auto [first, end] = between(drawable, -never, never);
+    return first != end;
 }
 
 bool DrawablePlaces::hasAt(const osg::Drawable& drawable, const osg::Matrixd& place, double rounding) const {
     const osg::Vec3d at = place.getTrans();
     const double margin = 1e-9 * (1.0 + std::abs(at.x()) + std::abs(at.y()) + std::abs(at.z())) + 2.0 * rounding;
-    const auto end = _places.upper_bound({&drawable, along(place) + margin});
-    return std::any_of(_places.lower_bound({&drawable, along(place) - margin}), end,
-                       [&](const auto& known) { return isSamePlace(known.second, place, rounding); });
+    const auto [first, end] = between(drawable, along(place) - margin, along(place) + margin);
+    return std::any_of(first, end, [&](unsigned i) { return isSamePlace(_places[i].matrix, place, rounding); });
 }
 
 std::vector<DrawnLeaf> leavesBelow(osgUtil::RenderStage& stage, int number) {

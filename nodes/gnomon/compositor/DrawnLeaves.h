@@ -48,7 +48,18 @@ public:
     bool hasAt(const osg::Drawable& drawable, const osg::Matrixd& place, double rounding = 0.0) const;
 
 private:
-    std::multimap<std::pair<const osg::Drawable*, double>, osg::Matrixd> _places; ///< by place, too.
+    struct Place {
+        const osg::Drawable* drawable;
+        double along; ///< an axis, on which those of a grid are apart.
+        osg::Matrixd matrix;
+    };
+    using Order = std::vector<unsigned>;
+    /// Those of a drawable between two places along the axis.
+    std::pair<Order::const_iterator, Order::const_iterator> between(const osg::Drawable& drawable, double low,
+                                                                    double high) const;
+
+    std::vector<Place> _places;
+    mutable Order _order; ///< by drawable and axis, once anything is asked.
 };
 
 /// Every leaf that the stage draws before bin `number`, in the order in which it is drawn. Valid from the end of sort

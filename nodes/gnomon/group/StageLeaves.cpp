@@ -77,7 +77,8 @@ void ProgramCauses::findStanding(const osg::Matrixd& projection) const {
 }
 
 bool ProgramCauses::draws(const Caster& caster, const ViewFrame& view) const {
-    if (!_lens || !isSameLens(*_lens, view.projection)) findStanding(view.projection);
+    if (_asking != &view && !(_lens && isSameLens(*_lens, view.projection))) findStanding(view.projection);
+    _asking = &view;
     const osg::Matrixd place = caster.groupFromLocal * view.eyeFromGroup;
     const double rounding = 1e-14 * caster.groupFromLocal.getTrans().length();
     if (_next < _standing.size() && _standing[_next]->_drawable == caster.drawable &&

@@ -85,6 +85,7 @@ private:
 
     std::vector<DrawnLeaf> _all;
     std::map<const osgUtil::StateGraph*, ProgramPlaces> _places;
+    mutable const ViewFrame* _asking = nullptr;                ///< Which asked last.
     mutable std::optional<osg::Matrixd> _lens;                 ///< Of the view that last asked what is drawn.
     mutable std::vector<const osgUtil::RenderLeaf*> _standing; ///< Drawn by that lens as its arrays stand.
     mutable std::size_t _next = 0;                             ///< The one after that which was found last, in order.

@@ -148,9 +148,8 @@ std::vector<SpecKey> sharedKeys(const std::string& receiver) {
         wordKey({"composite", "removes the blocked light, or multiplies the colour by dark"}, composite(),
                 {{"relight", ShadowCasterGroup::RELIGHT}, {"blend", ShadowCasterGroup::BLEND}}),
         numberKey({"dark", "with composite=blend: factor for the colour in shadow"}, dark(), 0.0f, 1.0f),
-        wordKey(
-            {"terminator", "smooth bodies cast from a facet's length on there, without teeth; or as their facets are"},
-            terminatorOffset(), {{"offset", true}, {"facets", false}}),
+        wordKey({"terminator", "smooth bodies without teeth, or shadowed as their facets are"}, terminatorOffset(),
+                {{"offset", true}, {"facets", false}}),
         receiverKey(receiver),
     };
 }
