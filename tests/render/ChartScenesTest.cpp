@@ -112,6 +112,7 @@ test::Picture picture(const ChartScene& scene, gnomon::ShadowTechnique* techniqu
     if (technique) {
         staged.addShadow(technique);
         staged.group->addLight({0, scene.light});
+        staged.group->setTerminatorOffset(false); // the truth is that of facets
     }
     return test::render(staged.root,
                         {scene.camera.width, scene.camera.height, scene.camera.view, scene.camera.projection});
