@@ -136,6 +136,8 @@ TEST(Terminator, FollowsNormalsThatChange) {
     Scene scene = test::scene(suns[1]);
     const osg::ref_ptr<osg::Node> body = ball();
     osg::Geometry& geometry = *body->asGeode()->getDrawable(0)->asGeometry();
+    geometry.setUseDisplayList(false); // of buffers the arrays' counts tell
+    geometry.setUseVertexBufferObjects(true);
     auto& normals = static_cast<osg::Vec3Array&>(*geometry.getNormalArray());
     const osg::ref_ptr<osg::Vec3Array> smooth = new osg::Vec3Array(normals);
     std::fill(normals.begin(), normals.end(), osg::Vec3(0.0f, 0.0f, 1.0f));
@@ -148,11 +150,9 @@ TEST(Terminator, FollowsNormalsThatChange) {
         camera.frame();
         std::copy(smooth->begin(), smooth->end(), normals.begin());
         normals.dirty();
-        geometry.dirtyGLObjects();
         const Picture without = pictureOf(body, suns[1], "", viewOf(3));
         EXPECT_EQ(darker(camera.frame(), without, step), 0) << technique;
         std::fill(normals.begin(), normals.end(), osg::Vec3(0.0f, 0.0f, 1.0f));
         normals.dirty();
-        geometry.dirtyGLObjects();
     }
 }
