@@ -133,7 +133,7 @@ public:
     Clipping getClipping() const { return _clipping; }
 
     /// Whether smoothly shaded bodies cast from a little farther on at their terminator, so that they have no teeth there: by
-    /// the length of a facet, along the light's rays, where vertex normals are within 20 degrees of the facets. Outlines of
+    /// the length of a facet, along the light's rays, where vertex normals are within 25 degrees of the facets. Outlines of
     /// shadows stay. Off: their facets shadow one another as they stand. Default true.
     void setTerminatorOffset(bool offset);
     /// See setTerminatorOffset().

@@ -79,7 +79,7 @@ TEST(TerminatorOffsets, ArePartOfThemWhereTheLightGrazesAndNoneElsewhere) {
 
 TEST(TerminatorOffsets, AreNoneOfFlatWallsAndOfAveragedCorners) {
     const glm::dvec3 up(0.0, 0.0, 1.0);
-    Mesh wall, house, none = cylinder(24, 0.0), rough = cylinder(8); // 22.5 degrees
+    Mesh wall, house, none = cylinder(24, 0.0), rough = cylinder(7); // 25.7 degrees
     for (const double x : {0.0, 1.0})
         for (const double y : {0.0, 1.0}) {
             wall.vertex({x, y, 0.0}, up);

@@ -7,7 +7,7 @@
 namespace gnomon {
 namespace {
 
-constexpr double leastCosine = 0.9396926; // of 20 degrees
+constexpr double leastCosine = 0.9063078; // of 25 degrees
 constexpr double leastTurn = 1e-4;        // radians: less is the rounding of normals
 
 struct Bend {

@@ -19,7 +19,7 @@ namespace gnomon {
 /// a facet along the way on which its normals turn. To move along the light's rays changes no outline of a shadow. It takes
 /// the shadow away from what is nearer than that behind the rim of the body.
 ///
-/// Only facets whose normals are within 20 degrees of their planes count: flat walls, and houses with averaged normals,
+/// Only facets whose normals are within 25 degrees of their planes count: flat walls, and houses with averaged normals,
 /// cast from where they are. Vertices at one place have one offset, so that what is closed stays closed.
 ///
 /// The xyz of an offset are the vertex's normal, divided by the turn of the normals along a facet's side; w is the longest way,
