@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What is drawn casts, and what is not drawn does not: by each state that takes something away.
+#include "Tower.h"
+
 #include <support/Picture.h>
 #include <support/Scene.h>
 
@@ -30,14 +32,13 @@
 #include <vector>
 
 using gnomon::ShadowCasterGroup;
+using test::fromTheSide;
 using test::Picture;
 using test::Scene;
+using test::sun;
+using test::tower;
 
 namespace {
-
-const osg::Vec4d sun(1.0, 0.3, 1.2, 0.0);
-const test::Mesh tower = test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0});
-test::View fromTheSide() { return test::perspective({-6.0, -9.0, 6.0}, {0.0, 0.0, 0.0}, 160, 120); }
 
 /// As OpenSceneGraph's examples draw one: unlit, before all else, at the far plane.
 osg::ref_ptr<osg::Node> skyDome() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What clip planes leave of a caster casts; those of a view cut what is seen alone.
 #include "IntoTexture.h"
+#include "Tower.h"
 
 #include <support/Oracle.h>
 #include <support/Picture.h>
@@ -17,14 +18,13 @@
 #include <vector>
 
 using gnomon::ShadowCasterGroup;
+using test::fromTheSide;
 using test::Picture;
 using test::Scene;
+using test::sun;
+using test::tower;
 
 namespace {
-
-const osg::Vec4d sun(1.0, 0.3, 1.2, 0.0);
-const test::Mesh tower = test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0});
-test::View fromTheSide() { return test::perspective({-6.0, -9.0, 6.0}, {0.0, 0.0, 0.0}, 160, 120); }
 
 /// The tower, cut off by z <= 1.
 const osg::Vec4d lowHalf(0.0, 0.0, -1.0, 1.0);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Techniques let go of casters that have left the scene.
+#include "Tower.h"
+
 #include <support/Picture.h>
 #include <support/Scene.h>
 
@@ -12,13 +14,12 @@
 #include <string>
 #include <vector>
 
+using test::fromTheSide;
 using test::Scene;
+using test::sun;
+using test::tower;
 
 namespace {
-
-const osg::Vec4d sun(1.0, 0.3, 1.2, 0.0);
-const test::Mesh tower = test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0});
-test::View fromTheSide() { return test::perspective({-6.0, -9.0, 6.0}, {0.0, 0.0, 0.0}, 160, 120); }
 
 /// Tiles that come and go, as paged ones do, and then the last caster of all.
 TEST(GoneCasters, AreLetGoByAllTechniques) {
