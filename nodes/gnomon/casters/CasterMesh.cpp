@@ -115,7 +115,6 @@ osg::ref_ptr<osg::Geometry> casterGeometry(const CasterMesh& mesh, osg::DrawElem
     geometry->setUseDisplayList(false);
     geometry->setUseVertexBufferObjects(true);
     geometry->setVertexArray(mesh.vertices.get());
-    if (mesh.offsets) geometry->setTexCoordArray(0, mesh.offsets.get(), osg::Array::BIND_PER_VERTEX);
     geometry->addPrimitiveSet(triangles);
     return geometry;
 }

@@ -98,8 +98,7 @@ inline const glm::vec4* offsetsOf(const CasterMesh& mesh) {
     return mesh.offsets ? static_cast<const glm::vec4*>(mesh.offsets->getDataPointer()) : nullptr;
 }
 
-/// Makes a drawable of some triangles of a mesh. It has positions, and offsets as texture coordinates of unit 0, and shares
-/// the mesh's buffers.
+/// Makes a drawable of some triangles of a mesh. It has positions only, and shares the mesh's buffers.
 osg::ref_ptr<osg::Geometry> casterGeometry(const CasterMesh& mesh, osg::DrawElementsUInt* triangles);
 
 /// A mesh of casters at a place. Scene: the group's axes about the origin of its CasterLayers.

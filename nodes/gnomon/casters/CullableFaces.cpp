@@ -41,6 +41,13 @@ std::vector<osg::BoundingBox> boxesOf(const CasterMesh& mesh, const osg::DrawEle
     return result;
 }
 
+/// With the offsets as texture coordinates, as mark.vert takes them.
+osg::ref_ptr<osg::Geometry> drawnOf(const CasterMesh& mesh, osg::DrawElementsUInt* triangles) {
+    osg::ref_ptr<osg::Geometry> geometry = casterGeometry(mesh, triangles);
+    if (mesh.offsets) geometry->setTexCoordArray(0, mesh.offsets.get(), osg::Array::BIND_PER_VERTEX);
+    return geometry;
+}
+
 bool isOutside(const glm::dvec4& light, const std::vector<osg::BoundingBox>& boxes) {
     const osg::Vec3 lamp(osg::Vec3d(light.x, light.y, light.z));
     return std::none_of(boxes.begin(), boxes.end(), [&](const osg::BoundingBox& box) {
@@ -61,7 +68,7 @@ ClosedParts closedPartsOf(const CasterMesh& mesh, const osg::DrawElementsUInt& t
 CullableFaces::CullableFaces(const CasterMesh& mesh, osg::DrawElementsUInt* triangles, bool findSolids)
     : smooth(mesh.offsets.valid()) {
     if (!findSolids) {
-        others = casterGeometry(mesh, triangles);
+        others = drawnOf(mesh, triangles);
         return;
     }
     const ClosedParts parts = closedPartsOf(mesh, *triangles);
@@ -73,12 +80,12 @@ CullableFaces::CullableFaces(const CasterMesh& mesh, osg::DrawElementsUInt* tria
         list->push_back(parts.welded[(*triangles)[i]]); // fewer vertices to transform
     }
     if (!closed->empty()) {
-        solids = casterGeometry(mesh, closed);
+        solids = drawnOf(mesh, closed);
         _solidBoxes = boxesOf(mesh, *triangles, parts, parts.closed);
     }
-    if (!open->empty()) others = casterGeometry(mesh, open);
+    if (!open->empty()) others = drawnOf(mesh, open);
     if (!withHoles->empty()) {
-        holed = casterGeometry(mesh, withHoles);
+        holed = drawnOf(mesh, withHoles);
         _holedBoxes = boxesOf(mesh, *triangles, parts, parts.holed);
         _clusters = new TriangleClusters(*holed);
         for (const auto& filling : parts.holes) {

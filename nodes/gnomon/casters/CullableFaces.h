@@ -27,8 +27,8 @@ struct CullableFaces : public osg::Referenced {
     osg::ref_ptr<osg::Geometry>
         solids; ///< they bound solids: of these the faces turned to a light cast all of the shadow.
     osg::ref_ptr<osg::Geometry> holed;  ///< they would, had they no holes.
-    const bool smooth;                  ///< its vertices have offsets: see CasterMesh.
     osg::ref_ptr<osg::Geometry> others; ///< of these both sides cast. Null, as the former, if there are none.
+    const bool smooth;                  ///< their vertices have offsets: see CasterMesh.
 
     /// @param triangles   of the mesh's vertices.
     /// @param findSolids  else all are others.
