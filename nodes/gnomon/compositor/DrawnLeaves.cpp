@@ -275,8 +275,16 @@ bool DrawablePlaces::has(const osg::Drawable& drawable) const {
 bool DrawablePlaces::hasAt(const osg::Drawable& drawable, const osg::Matrixd& place, double rounding) const {
     const osg::Vec3d at = place.getTrans();
     const double margin = 1e-9 * (1.0 + std::abs(at.x()) + std::abs(at.y()) + std::abs(at.z())) + 2.0 * rounding;
+    const auto isThere = [&](unsigned i) { return isSamePlace(_places[i].matrix, place, rounding); };
+    if (_next < _places.size() && _places[_next].drawable == &drawable && isThere(_next)) {
+        ++_next;
+        return true;
+    }
     const auto [first, end] = between(drawable, along(place) - margin, along(place) + margin);
-    return std::any_of(first, end, [&](unsigned i) { return isSamePlace(_places[i].matrix, place, rounding); });
+    const auto found = std::find_if(first, end, isThere);
+    if (found == end) return false;
+    _next = *found + 1;
+    return true;
 }
 
 std::vector<DrawnLeaf> leavesBelow(osgUtil::RenderStage& stage, int number) {

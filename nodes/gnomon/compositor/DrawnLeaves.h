@@ -59,7 +59,8 @@ private:
                                                                     double high) const;
 
     std::vector<Place> _places;
-    mutable Order _order; ///< by drawable and axis, once anything is asked.
+    mutable Order _order;       ///< by drawable and axis, once those asked for come in another order.
+    mutable unsigned _next = 0; ///< The place after that which was found last.
 };
 
 /// Every leaf that the stage draws before bin `number`, in the order in which it is drawn. Valid from the end of sort

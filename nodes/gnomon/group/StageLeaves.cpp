@@ -58,9 +58,7 @@ ProgramCauses::ProgramCauses(osgUtil::RenderStage& stage)
 }
 
 void ProgramCauses::findStanding(const osg::Matrixd& projection) const {
-    _standing.clear();
-    _next = 0;
-    _standingAt.reset();
+    _standing.emplace();
     _lens = projection;
     const osgUtil::StateGraph* graph = nullptr; // leaves of one state mostly follow each other
     const osg::RefMatrix* lens = nullptr;       // and those of one lens
@@ -72,25 +70,15 @@ void ProgramCauses::findStanding(const osg::Matrixd& projection) const {
         }
         if (!lens || entry.leaf->_projection != lens) isOfView = isSameLens(projectionOf(*entry.leaf), projection);
         lens = entry.leaf->_projection.get();
-        if (stands && isOfView && !entry.leaf->_drawable->getDrawCallback()) _standing.push_back(entry.leaf);
+        if (stands && isOfView && !entry.leaf->_drawable->getDrawCallback())
+            _standing->add(*entry.leaf->_drawable, modelviewOf(*entry.leaf));
     }
 }
 
 bool ProgramCauses::draws(const Caster& caster, const ViewFrame& view) const {
-    if (_asking != &view && !(_lens && isSameLens(*_lens, view.projection))) findStanding(view.projection);
-    _asking = &view;
-    const osg::Matrixd place = caster.groupFromLocal * view.eyeFromGroup;
-    const double rounding = 1e-14 * caster.groupFromLocal.getTrans().length();
-    if (_next < _standing.size() && _standing[_next]->_drawable == caster.drawable &&
-        isSamePlace(modelviewOf(*_standing[_next]), place, rounding)) {
-        ++_next; // casters and leaves mostly have one order
-        return true;
-    }
-    if (!_standingAt) {
-        _standingAt.emplace();
-        for (const osgUtil::RenderLeaf* leaf : _standing) _standingAt->add(*leaf->_drawable, modelviewOf(*leaf));
-    }
-    return _standingAt->hasAt(*caster.drawable, place, rounding);
+    if (!_standing || !isSameLens(_lens, view.projection)) findStanding(view.projection);
+    const osg::Vec3d inGroup = caster.groupFromLocal.getTrans();
+    return _standing->hasAt(*caster.drawable, caster.groupFromLocal * view.eyeFromGroup, 1e-14 * inGroup.length());
 }
 
 void ProgramCauses::report(const FrameReport& report, const ShadowCasterGroup& group, const Leaves& receiving,

@@ -52,7 +52,8 @@ using Leaves = std::vector<const osgUtil::RenderLeaf*>;
 /// What the programs of one view do that shadows cannot follow, for diagnose(); and which casters the view draws where they stand.
 /// Asked for once a view.
 ///
-/// Cost    a look at each state's program, and once at each program's text. draws(): the leaves are sorted once.
+/// Cost    a look at each state's program, and once at each program's text. draws(): the leaves are sorted once, where those of
+///         casters are in another order.
 class ProgramCauses {
 public:
     ProgramCauses() = default;
@@ -85,11 +86,8 @@ private:
 
     std::vector<DrawnLeaf> _all;
     std::map<const osgUtil::StateGraph*, ProgramPlaces> _places;
-    mutable const ViewFrame* _asking = nullptr;                ///< Which asked last.
-    mutable std::optional<osg::Matrixd> _lens;                 ///< Of the view that last asked what is drawn.
-    mutable std::vector<const osgUtil::RenderLeaf*> _standing; ///< Drawn by that lens as its arrays stand.
-    mutable std::size_t _next = 0;                             ///< The one after that which was found last, in order.
-    mutable std::optional<DrawablePlaces> _standingAt;         ///< The same; null until casters have another order.
+    mutable std::optional<DrawablePlaces> _standing; ///< Of what is drawn as its arrays stand, once asked for,
+    mutable osg::Matrixd _lens;                      ///< by this lens.
 };
 
 /// What one stage draws, as its ShadowBin of number `number` sees it after the cull.
