@@ -336,7 +336,7 @@ double farthestOf(const Corners& corners) { return std::max_element(corners.begi
 bool isSeen(const Corners& corners, const osg::Vec2d& pixels) {
     const auto isBeforeFarPlane = [](const glm::dvec4& corner) { return corner.z <= corner.w; };
     if (std::none_of(corners.begin(), corners.end(), isBeforeFarPlane)) return false;
-    const std::optional<ScreenRect> place = screenBounds({corners.begin(), corners.end()});
+    const std::optional<ScreenRect> place = screenBounds(corners);
     if (!place) return false;
     const glm::dvec2 size = 0.5 * (place->high - place->low) * glm::dvec2(pixels.x(), pixels.y());
     return std::max(size.x, size.y) >= 1.0;

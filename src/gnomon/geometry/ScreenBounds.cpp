@@ -111,16 +111,38 @@ struct Limits {
     }
 };
 
-Limits limitsAlong(const std::vector<glm::dvec4>& points, int axis) {
+Limits limitsAlong(const glm::dvec4* points, std::size_t count, int axis) {
     Limits limits;
-    for (const glm::dvec4& point : points)
-        if (point.w > 0.0 || point.w < 0.0) limits.add(point[axis], point.w);
+    for (const glm::dvec4* point = points; point != points + count; ++point)
+        if (point->w > 0.0 || point->w < 0.0) limits.add((*point)[axis], point->w);
     limits.passBehindTheEye();
-    for (const glm::dvec4& point : points) { // w = 0 itself: an end at infinity
-        if (point.w == 0.0 && point[axis] > 0.0) limits.high = infinity;
-        if (point.w == 0.0 && point[axis] < 0.0) limits.low = -infinity;
+    for (const glm::dvec4* point = points; point != points + count; ++point) { // w = 0 itself: an end at infinity
+        if (point->w == 0.0 && (*point)[axis] > 0.0) limits.high = infinity;
+        if (point->w == 0.0 && (*point)[axis] < 0.0) limits.low = -infinity;
     }
     return limits;
+}
+
+/// The part of the screen between two corners; nullopt if there is none.
+std::optional<ScreenRect> onScreen(const glm::dvec2& low, const glm::dvec2& high) {
+    const ScreenRect rect{glm::max(low, -1.0), glm::min(high, 1.0)};
+    return glm::all(glm::lessThanEqual(rect.low, rect.high)) ? std::optional(rect) : std::nullopt;
+}
+
+/// As nearly always, points that are all before the eye. Their limits are those of x/w and y/w.
+/// @return false if one is not, or is not finite.
+bool limitsBeforeEye(const glm::dvec4* points, std::size_t count, glm::dvec2& low, glm::dvec2& high) {
+    double zero = 0.0; // not a number by what is not finite
+    low = glm::dvec2(infinity);
+    high = glm::dvec2(-infinity);
+    for (const glm::dvec4* point = points; point != points + count; ++point) {
+        if (!(point->w > 0.0)) return false;
+        const glm::dvec2 at = glm::dvec2(*point) / point->w;
+        low = glm::min(low, at);
+        high = glm::max(high, at);
+        zero += 0.0 * (point->x + point->y + point->z + point->w);
+    }
+    return zero == 0.0;
 }
 
 double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
@@ -152,10 +174,11 @@ Polygon cut(const Polygon& polygon, const glm::dvec4& half) {
 } // namespace
 
 std::array<glm::dvec4, 8> boxCorners(const glm::dvec3& low, const glm::dvec3& high, const glm::dmat4& frameFromBox) {
-    std::array<glm::dvec4, 8> corners;
-    for (std::size_t i = 0; i < corners.size(); ++i)
-        corners[i] =
-            frameFromBox * glm::dvec4(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z, 1.0);
+    const std::array<glm::dvec4, 2> x{frameFromBox[0] * low.x, frameFromBox[0] * high.x},
+        y{frameFromBox[1] * low.y, frameFromBox[1] * high.y},
+        z{frameFromBox[2] * low.z + frameFromBox[3], frameFromBox[2] * high.z + frameFromBox[3]};
+    std::array<glm::dvec4, 8> corners; // to the bit as glm multiplies, each product and sum once
+    for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = (x[i & 1] + y[i >> 1 & 1]) + z[i >> 2];
     return corners;
 }
 
@@ -179,14 +202,14 @@ std::vector<glm::dvec3> cutBox(const glm::dvec3& low, const glm::dvec3& high,
     return corners;
 }
 
-std::optional<ScreenRect> screenBounds(const std::vector<glm::dvec4>& clipPoints) {
-    if (!std::all_of(clipPoints.begin(), clipPoints.end(), isFinite)) return ScreenRect{{-1.0, -1.0}, {1.0, 1.0}};
-    const auto inFront = [](const glm::dvec4& point) { return point.w > 0.0; };
-    if (std::none_of(clipPoints.begin(), clipPoints.end(), inFront)) return std::nullopt;
-    const Limits x = limitsAlong(clipPoints, 0), y = limitsAlong(clipPoints, 1);
-    const glm::dvec2 low = glm::max(glm::dvec2(x.low, y.low), -1.0), high = glm::min(glm::dvec2(x.high, y.high), 1.0);
-    if (!glm::all(glm::lessThanEqual(low, high))) return std::nullopt;
-    return ScreenRect{low, high};
+std::optional<ScreenRect> screenBounds(const glm::dvec4* clipPoints, std::size_t count) {
+    glm::dvec2 low, high;
+    if (limitsBeforeEye(clipPoints, count, low, high)) return onScreen(low, high);
+    const glm::dvec4* const end = clipPoints + count;
+    if (!std::all_of(clipPoints, end, isFinite)) return ScreenRect{{-1.0, -1.0}, {1.0, 1.0}};
+    if (std::none_of(clipPoints, end, [](const glm::dvec4& point) { return point.w > 0.0; })) return std::nullopt;
+    const Limits x = limitsAlong(clipPoints, count, 0), y = limitsAlong(clipPoints, count, 1);
+    return onScreen({x.low, y.low}, {x.high, y.high});
 }
 
 std::vector<glm::dvec2> screenOutline(const std::vector<glm::dvec4>& clipPoints, const glm::dvec2& by) {

@@ -8,6 +8,7 @@
 #include <glm/vec4.hpp>
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -28,7 +29,14 @@ std::vector<glm::dvec3> cutBox(const glm::dvec3& low, const glm::dvec3& high,
 /// Near and far planes do not count, so that it holds under depth clamp. Exact in double precision: whoever draws in
 /// single precision adds a pixel for the rounding of vertices.
 /// nullopt if nothing of it can be seen. Points that are not finite make the whole screen the answer.
-std::optional<ScreenRect> screenBounds(const std::vector<glm::dvec4>& clipPoints);
+std::optional<ScreenRect> screenBounds(const glm::dvec4* clipPoints, std::size_t count);
+inline std::optional<ScreenRect> screenBounds(const std::vector<glm::dvec4>& clipPoints) {
+    return screenBounds(clipPoints.data(), clipPoints.size());
+}
+template <std::size_t count>
+std::optional<ScreenRect> screenBounds(const std::array<glm::dvec4, count>& clipPoints) {
+    return screenBounds(clipPoints.data(), count);
+}
 
 /// As screenBounds() the convex outline, in normalised device coordinates, grown by `by` to each side; may reach beyond the
 /// screen. Empty where that is not known: some of it is behind the eye.

@@ -122,7 +122,7 @@ void RayBins::meet(const PlacedBox& box, const Hit& hit) const {
     if (_rays.empty()) return;
     const glm::dmat4 clipFromPicture = glm::scale(glm::translate(glm::dmat4(1.0), {-1.0, -1.0, 0.0}), {2.0, 2.0, 1.0});
     const auto corners = boxCorners(box.low, box.high, clipFromPicture * _pictureFromScene * box.sceneFromBox);
-    const auto bounds = screenBounds({corners.begin(), corners.end()});
+    const auto bounds = screenBounds(corners);
     if (!bounds) return;
     const ScreenRect rect{(bounds->low + 1.0) / 2.0 - ofPicture, (bounds->high + 1.0) / 2.0 + ofPicture};
     const glm::dmat4 boxFromScene = glm::inverse(box.sceneFromBox);
