@@ -91,10 +91,19 @@ void mixGeometry(const osg::Geometry& geometry, Fingerprint& into) {
     }
 }
 
+std::uint64_t valueOf(const osg::Matrixd& matrix) {
+    Fingerprint result;
+    result.mix(matrix);
+    return result.value();
+}
+
 void mixBounds(const osg::Drawable& drawable, Fingerprint& into) {
     const osg::BoundingBox& bounds = drawable.getBoundingBox();
-    into.mixBytes(bounds._min.ptr(), sizeof bounds._min);
-    into.mixBytes(bounds._max.ptr(), sizeof bounds._max);
+    std::uint64_t words[3];
+    static_assert(sizeof words == sizeof bounds._min + sizeof bounds._max);
+    std::memcpy(words, bounds._min.ptr(), sizeof bounds._min);
+    std::memcpy(reinterpret_cast<char*>(words) + sizeof bounds._min, bounds._max.ptr(), sizeof bounds._max);
+    for (const std::uint64_t word : words) into.mix(word);
 }
 
 } // namespace
@@ -152,13 +161,19 @@ CasterVisitor::CasterVisitor(const Selection& selection)
 }
 
 void CasterVisitor::reset() {
-    _matrices.assign(1, osg::Matrixd::identity());
+    _placements.assign(1, {osg::Matrixd::identity()});
     _inside = _selected.empty() ? 1 : 0;
     _choice = Fingerprint();
     _judge.reset();
     _front = nullptr;
     _leftOut.clear();
     findWays();
+}
+
+std::uint64_t CasterVisitor::placeValue() const {
+    Placement& place = _placements.back();
+    if (place.value == 0) place.value = valueOf(place.rootFromLocal);
+    return place.value;
 }
 
 void CasterVisitor::findWays() {
@@ -331,27 +346,27 @@ void CasterVisitor::apply(osg::Transform& transform) {
         if (automatic->getAutoScaleToScreen()) return; // a label
         if (automatic->getAutoRotateMode() != osg::AutoTransform::NO_ROTATION) return visitTurning(*automatic);
     }
-    osg::Matrixd matrix = _matrices.back();
+    osg::Matrixd matrix = rootFromLocal();
     transform.computeLocalToWorldMatrix(matrix, this);
-    _matrices.push_back(matrix);
+    _placements.push_back({matrix});
     apply(static_cast<osg::Node&>(transform));
-    _matrices.pop_back();
+    _placements.pop_back();
 }
 
 /// It asks for the view's CullStack, as in the cull.
 void CasterVisitor::visitTurning(osg::AutoTransform& transform) {
     if (!_view || !_view->viewport || !isOnTheWay(transform)) return;
-    osg::Matrixd eye = eyeFrom(getNodePath().size() - 1), matrix = _matrices.back();
+    osg::Matrixd eye = eyeFrom(getNodePath().size() - 1), matrix = rootFromLocal();
     enterCullStack(eye);
     transform.computeLocalToWorldMatrix(matrix, this);
     transform.computeLocalToWorldMatrix(eye, this);
     leaveCullStack();
     _choice.mix(_view->key); // another view turns it otherwise
-    _matrices.push_back(matrix);
+    _placements.push_back({matrix});
     _turned.emplace_back(getNodePath().size(), eye);
     apply(static_cast<osg::Node&>(transform));
     _turned.pop_back();
-    _matrices.pop_back();
+    _placements.pop_back();
 }
 
 /// Each of its drawables turns by itself.
@@ -364,9 +379,9 @@ void CasterVisitor::apply(osg::Billboard& billboard) {
          ++i) {
         osg::Matrixd turned = eye;
         billboard.computeMatrix(turned, localFromEye.getTrans(), billboard.getPosition(i));
-        _matrices.push_back(turned * localFromEye * _matrices.back());
+        _placements.push_back({turned * localFromEye * rootFromLocal()});
         billboard.getDrawable(i)->accept(*this);
-        _matrices.pop_back();
+        _placements.pop_back();
     }
 }
 
@@ -407,7 +422,7 @@ std::uint64_t CasterFingerprint::of(const osg::Drawable& drawable, const osg::Ma
                                     const Casting& casting) {
     const bool isRead = followsOf(drawable) == Follows::Each;
     return placed(ofGeometry(drawable, casting, isRead ? contentsOf(drawable, casting.looksAtAll()) : 0),
-                  rootFromLocal);
+                  valueOf(rootFromLocal));
 }
 
 std::uint64_t CasterFingerprint::ofGeometry(const osg::Drawable& drawable, const Casting& casting,
@@ -424,9 +439,9 @@ std::uint64_t CasterFingerprint::ofGeometry(const osg::Drawable& drawable, const
     return result.value();
 }
 
-std::uint64_t CasterFingerprint::placed(std::uint64_t geometry, const osg::Matrixd& rootFromLocal) {
+std::uint64_t CasterFingerprint::placed(std::uint64_t geometry, std::uint64_t place) {
     Fingerprint result;
-    result.mix(rootFromLocal);
+    result.mix(place);
     result.mix(geometry);
     return result.value();
 }

@@ -53,7 +53,7 @@ public:
     void apply(osg::Projection&) override {}
 
     /// The frame that is meant by the root's, where that is not the one that the visited node stands in. Default identity.
-    void setRootFromVisited(const osg::Matrixd& matrix) { _matrices.assign(1, matrix); }
+    void setRootFromVisited(const osg::Matrixd& matrix) { _placements.assign(1, {matrix}); }
     /// Takes levels of detail as a view does, whose group is the root. Default: no view.
     void setView(const CasterView& view);
     /// Leaves out what casts nothing by the states that it is drawn with. Default: all counts, and whole.
@@ -84,7 +84,9 @@ protected:
     /// Called in the same way for each that drawsItself(). A geometry may be both.
     virtual void applySelfDrawing(osg::Drawable&, const Casting&) {}
     /// From the frame of the drawable being visited to that of the root.
-    const osg::Matrixd& rootFromLocal() const { return _matrices.back(); }
+    const osg::Matrixd& rootFromLocal() const { return _placements.back().rootFromLocal; }
+    /// Stands for rootFromLocal(). Found once for all that stands there.
+    std::uint64_t placeValue() const;
     /// What its states leave of the drawable being visited: all, at no cost, if no state on the way to it may matter.
     virtual Casting castingOf(const osg::Drawable& drawable);
     /// Of the drawable being visited, in the view.
@@ -110,7 +112,11 @@ private:
 
     const std::vector<osg::ref_ptr<osg::Node>> _selected; ///< empty: everything.
     const std::set<osg::Node*> _roots;                    ///< the same, each once.
-    std::vector<osg::Matrixd> _matrices;
+    struct Placement {
+        osg::Matrixd rootFromLocal;
+        std::uint64_t value = 0; ///< that stands for it; 0 until asked for.
+    };
+    mutable std::vector<Placement> _placements; ///< of the frames on the way down.
     Levels _levels = Levels::Chosen;
     std::optional<CasterView> _view;
     std::unique_ptr<osg::CullStack> _cullStack; ///< of the view; null until an LOD by pixels is met.
@@ -160,8 +166,8 @@ public:
     static std::uint64_t of(const osg::Drawable& drawable, const osg::Matrixd& rootFromLocal, const Casting& casting);
     /// The same, wherever it is. @param contents  see contentsOf(); 0 if its counts tell.
     static std::uint64_t ofGeometry(const osg::Drawable& drawable, const Casting& casting, std::uint64_t contents);
-    /// Of a geometry, at a place.
-    static std::uint64_t placed(std::uint64_t geometry, const osg::Matrixd& rootFromLocal);
+    /// Of a geometry, at a place. @param place  see placeValue().
+    static std::uint64_t placed(std::uint64_t geometry, std::uint64_t place);
 
 protected:
     void applyCaster(osg::Drawable& drawable, const Casting& casting) override {

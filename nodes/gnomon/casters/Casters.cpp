@@ -86,7 +86,7 @@ protected:
     void applyCaster(osg::Drawable& drawable, const Casting& casting) override {
         const std::uint64_t geometry = CasterFingerprint::ofGeometry(drawable, casting, contents(drawable, casting));
         Fingerprint placed;
-        placed.mix(CasterFingerprint::placed(geometry, rootFromLocal()));
+        placed.mix(CasterFingerprint::placed(geometry, placeValue()));
         if (const osg::Texture2D* texture = casting.test ? casting.test->texture.get() : nullptr)
             if (texture->getUnRefImageDataAfterApply()) placed.mix(static_cast<const void*>(alphasOf(*texture).get()));
         placed.mix(static_cast<std::uint64_t>(hiding()));
@@ -98,7 +98,7 @@ protected:
     void applySelfDrawing(osg::Drawable& drawable, const Casting& casting) override {
         const std::uint64_t contents = followsOf(drawable) == Follows::Each ? contentsOf(drawable, true) : 0;
         const std::uint64_t geometry = CasterFingerprint::ofGeometry(drawable, casting, contents);
-        addSelfDrawing(drawable, casting, CasterFingerprint::placed(geometry, rootFromLocal()));
+        addSelfDrawing(drawable, casting, CasterFingerprint::placed(geometry, placeValue()));
     }
 
 private:
