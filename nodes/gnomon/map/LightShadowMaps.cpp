@@ -23,19 +23,21 @@ constexpr double keptClear = 3.0; // texels at a map's sides: what a comparison 
 
 } // namespace
 
-std::vector<glm::dvec4> LightShadowMaps::find(const ViewFrame& view, const MapRequest& request) {
+const std::vector<glm::dvec4>& LightShadowMaps::find(const ViewFrame& view, const MapRequest& request) {
     const glm::dmat4 eyeFromScene = SceneFrame(request.casters->layers.origin).eyeFromScene(view);
     SeenScene seen{toGlm(view.projection) * eyeFromScene, // clip space is the projection of eye space to the last bit
                    {view.pixels.x(), view.pixels.y()},
                    receiversOf(view, eyeFromScene)};
     take(request, anyIsBetween(*request.casters, request.light, seen.receivers));
     settle(std::move(seen), request);
+    if (_foundFor == _texels) return _needed;
     _faces.find(_texels);
+    _foundFor = _texels;
+    _needed.clear();
     const glm::dmat4& clipFromScene = _faces.seen().clipFromScene;
-    std::vector<glm::dvec4> points;
     for (const Face& face : _faces.each)
-        for (const glm::dvec4& point : face.needed.body()) points.push_back(clipFromScene * point);
-    return points;
+        for (const glm::dvec4& point : face.needed.body()) _needed.push_back(clipFromScene * point);
+    return _needed;
 }
 
 void LightShadowMaps::take(const MapRequest& request, bool flats) {
@@ -43,9 +45,12 @@ void LightShadowMaps::take(const MapRequest& request, bool flats) {
     const CasterLayers& layers = request.casters->layers;
     const bool sameMaps = old.settings == request.settings;
     if (old.casters && old.casters->layers.origin == layers.origin && _faces.flatsCast() == flats && sameMaps &&
-        isSameLight(request, old, layers.widest) && (old.casters == request.casters || _faces.haveSameSides(layers)))
+        isSameLight(request, old, layers.widest) && (old.casters == request.casters || _faces.haveSameSides(layers))) {
+        if (old.casters != request.casters) _foundFor = 0;
         return _faces.takeCasters(*request.casters);
+    }
     if (!sameMaps) _map = nullptr;
+    _foundFor = 0;
     _faces.begin(request, flats);
     if (!_map) _texels = request.settings.size;
 }
@@ -58,6 +63,7 @@ void LightShadowMaps::settle(SeenScene seen, const MapRequest& latest) {
     if (!(seen == _faces.seen() && key(latest) == key(_latest))) {
         if (_rest > 0) _patience = _rest < longRest ? std::min(2 * _patience, longRest) : 1;
         _rest = _latest.casters ? 0 : longRest; // a light's first frame has none before
+        if (!(seen == _faces.seen())) _foundFor = 0;
         _faces.see(std::move(seen));
         _latest = latest;
     } else if (_rest < longRest && ++_rest == _patience) {
@@ -65,6 +71,7 @@ void LightShadowMaps::settle(SeenScene seen, const MapRequest& latest) {
         now.light = latest.light;
         now.cone = latest.cone;
         _texels = now.settings.size;
+        _foundFor = 0;
         _faces.begin(now, _faces.flatsCast());
     }
 }
@@ -216,7 +223,7 @@ PixelRect LightShadowMaps::moversIn(const MapPicture::Tile& tile) const {
     glm::dvec2 low(1.0), high(-1.0);
     const auto add = [&](const MapBox& box) {
         const auto corners = boxCorners(box.low, box.high, clipFromScene);
-        const auto bounds = screenBounds({corners.begin(), corners.end()});
+        const auto bounds = screenBounds(corners);
         if (!bounds) return;
         low = glm::min(low, bounds->low);
         high = glm::max(high, bounds->high);

@@ -52,7 +52,7 @@ public:
     /// Finds what is needed now. Starts anew if anything but the casters differs from what the maps are of; they stay as they
     /// lie where those move.
     /// @return what is needed, corners in clip space: on the screen shadows can fall about them; none if nowhere.
-    std::vector<glm::dvec4> find(const ViewFrame& view, const MapRequest& request);
+    const std::vector<glm::dvec4>& find(const ViewFrame& view, const MapRequest& request);
     /// Makes the maps anew that do not hold what is needed, or would hold it much better.
     void update(const ViewFrame& view, MapMeshes& meshes);
     /// Where none is needed: forgets those drawn last if they show what has changed since.
@@ -91,12 +91,14 @@ private:
     MapPicture::Tile tileOf(const Face& face, const glm::ivec2& corner);
     PixelRect moversIn(const MapPicture::Tile& tile) const;
 
-    MapFaces _faces;                         ///< of an older light, while the latest is the same but for floats.
-    MapRequest _latest;                      ///< in the last frame.
-    int _rest = 0;                           ///< frames since that or what is seen changed, up to longRest.
-    int _patience = 1;                       ///< that many settle the maps; see settle().
-    int _texels = 0;                         ///< on a side of a tile, of those drawn last.
-    osg::ref_ptr<DepthMap> _map;             ///< null until there is one that fits the settings.
+    MapFaces _faces;                 ///< of an older light, while the latest is the same but for floats.
+    MapRequest _latest;              ///< in the last frame.
+    int _rest = 0;                   ///< frames since that or what is seen changed, up to longRest.
+    int _patience = 1;               ///< that many settle the maps; see settle().
+    int _texels = 0;                 ///< on a side of a tile, of those drawn last.
+    int _foundFor = 0;               ///< texels that the faces were found with, of what they are of now; else 0.
+    std::vector<glm::dvec4> _needed; ///< what find() returned for them.
+    osg::ref_ptr<DepthMap> _map;     ///< null until there is one that fits the settings.
     osg::ref_ptr<const MapPicture> _picture; ///< the last one.
 };
 

@@ -79,21 +79,28 @@ bool isSameLight(const MapRequest& one, const MapRequest& other, double widest) 
 
 std::vector<PlacedBox> receiversOf(const ViewFrame& view, const glm::dmat4& eyeFromScene) {
     const glm::dmat4 sceneFromEye = glm::inverse(eyeFromScene);
-    std::vector<std::pair<double, PlacedBox>> sized; // by the diagonal, scene
-    const auto add = [&sized](const PlacedBox& box) {
-        sized.emplace_back(glm::length(glm::dvec3(box.sceneFromBox * glm::dvec4(box.high - box.low, 0.0))), box);
+    std::vector<PlacedBox> boxes;
+    std::vector<std::pair<double, std::size_t>> sized; // by the diagonal, scene
+    const auto add = [&](const PlacedBox& box) {
+        sized.emplace_back(glm::length(glm::dvec3(box.sceneFromBox * glm::dvec4(box.high - box.low, 0.0))),
+                           boxes.size());
+        boxes.push_back(box);
     };
     bool anywhere = view.movesReceivers;
+    const osg::RefMatrix* known = nullptr; // leaves that share a matrix mostly follow one another
+    glm::dmat4 sceneFromLeaf(1.0);
     for (const osgUtil::RenderLeaf* leaf : view.seen) {
         const osg::BoundingBox& box = leaf->_drawable->getBoundingBox();
         anywhere = anywhere || !box.valid();
-        if (box.valid())
-            add({toGlm(osg::Vec3d(box._min)), toGlm(osg::Vec3d(box._max)), sceneFromEye * toGlm(modelviewOf(*leaf))});
+        if (!box.valid()) continue;
+        if (!known || known != leaf->_modelview) sceneFromLeaf = sceneFromEye * toGlm(modelviewOf(*leaf));
+        known = leaf->_modelview.get();
+        add({toGlm(osg::Vec3d(box._min)), toGlm(osg::Vec3d(box._max)), sceneFromLeaf});
     }
     if (anywhere) add(wholeView(view, sceneFromEye));
     std::sort(sized.begin(), sized.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
     std::vector<PlacedBox> result;
-    for (const auto& [size, box] : sized) result.push_back(box);
+    for (const auto& [size, box] : sized) result.push_back(boxes[box]);
     return result;
 }
 

@@ -8,6 +8,7 @@
 #include <glm/matrix.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -97,6 +98,28 @@ glm::dmat4 unitFromLight(const Rectangle& rectangle, double nearest, double fart
                                      glm::dvec4(0.0, 0.0, 0.0, 1.0)));
 }
 
+/// A box by its middle and half of each of its sides, as a frame has them, homogeneous.
+struct BoxFrom {
+    glm::dvec4 middle;
+    std::array<glm::dvec4, 3> halves;
+
+    explicit BoxFrom(const PlacedBox& box) : middle(box.sceneFromBox * glm::dvec4((box.low + box.high) / 2.0, 1.0)) {
+        for (int axis = 0; axis < 3; ++axis)
+            halves[std::size_t(axis)] = box.sceneFromBox[axis] * ((box.high[axis] - box.low[axis]) / 2.0);
+    }
+    BoxFrom(const glm::dmat4& frameFromScene, const BoxFrom& inScene) : middle(frameFromScene * inScene.middle) {
+        for (std::size_t axis = 0; axis < 3; ++axis) halves[axis] = frameFromScene * inScene.halves[axis];
+    }
+
+    /// How far a linear function is from what it is in the middle, at most. @param row  of it.
+    double reach(const glm::dvec4& row) const {
+        return std::abs(glm::dot(row, halves[0])) + std::abs(glm::dot(row, halves[1])) +
+               std::abs(glm::dot(row, halves[2]));
+    }
+    /// True if w is 1 all over it.
+    bool isPlain() const { return middle.w == 1.0 && halves[0].w == 0.0 && halves[1].w == 0.0 && halves[2].w == 0.0; }
+};
+
 /// Of a box. A look at them is faster than to cut it: what is known already adds nothing.
 template <class Test>
 bool allCorners(const PlacedBox& box, const Test& test) {
@@ -131,17 +154,23 @@ HalfSpaces both(HalfSpaces some, const HalfSpaces& others) {
 }
 
 std::vector<glm::dvec4> cornersWithin(const PlacedBox& box, const HalfSpaces& halfSpaces) {
-    const auto all = boxCorners(box.low, box.high, box.sceneFromBox);
-    std::vector<glm::dvec4> corners(all.begin(), all.end());
+    const BoxFrom from(box);
+    std::optional<std::array<glm::dvec4, 8>> all;
     HalfSpaces cutting; // by the others the box is not changed
     for (const glm::dvec4& half : halfSpaces) {
+        const double middle = glm::dot(half, from.middle), reach = from.reach(half),
+                     rounding = 1e-12 * (glm::dot(glm::abs(half), glm::abs(from.middle)) + reach);
+        if (middle - reach > rounding) continue;
+        if (middle + reach < -rounding) return {};
+        if (!all) all = boxCorners(box.low, box.high, box.sceneFromBox);
         const auto outside = [&half](const glm::dvec4& corner) { return glm::dot(half, corner) < 0.0; };
-        const auto count = std::count_if(corners.begin(), corners.end(), outside);
+        const auto count = std::count_if(all->begin(), all->end(), outside);
         if (count == 8) return {};
         if (count > 0) cutting.push_back(half * box.sceneFromBox);
     }
-    if (cutting.empty()) return corners;
-    corners.clear();
+    if (!all) all = boxCorners(box.low, box.high, box.sceneFromBox);
+    if (cutting.empty()) return {all->begin(), all->end()};
+    std::vector<glm::dvec4> corners;
     for (const glm::dvec3& corner : cutBox(box.low, box.high, cutting))
         corners.push_back(box.sceneFromBox * glm::dvec4(corner, 1.0));
     return corners;
@@ -192,13 +221,30 @@ bool MapOutline::covers(const glm::dvec4& p) const {
     return p.w > 0.0 && depth >= nearest && depth <= farthest && surrounds(glm::dvec2(p) / p.w);
 }
 
+bool MapOutline::coversAll(const PlacedBox& box) const {
+    if (empty()) return false;
+    const BoxFrom from(_frame.lightFromScene, BoxFrom(box));
+    if (!_frame.isParallel || !from.isPlain())
+        return allCorners(box, [this](const glm::dvec4& corner) { return covers(_frame.lightFromScene * corner); });
+    const double thick = std::abs(from.halves[0].z) + std::abs(from.halves[1].z) + std::abs(from.halves[2].z);
+    if (from.middle.z - thick < nearest || from.middle.z + thick > farthest) return false;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const glm::dvec2 side = corners[(i + 1) % corners.size()] - corners[i];
+        const auto aside = [&side](const glm::dvec2& way) { return cross(side, way); };
+        double reach = 0.0;
+        for (const glm::dvec4& half : from.halves) reach += std::abs(aside(glm::dvec2(half)));
+        if (!(aside(glm::dvec2(from.middle) - corners[i]) >= reach)) return false;
+    }
+    return corners.size() >= 3;
+}
+
 bool MapOutline::isBefore(const MapOutline& other) const {
     return !empty() && (other.empty() || nearest <= other.nearest) &&
            std::all_of(other.corners.begin(), other.corners.end(), [this](const auto& at) { return surrounds(at); });
 }
 
 void MapOutline::addBox(const PlacedBox& box, const HalfSpaces& halfSpaces) {
-    if (allCorners(box, [this](const glm::dvec4& corner) { return covers(_frame.lightFromScene * corner); })) return;
+    if (coversAll(box)) return;
     for (const glm::dvec4& corner : cornersWithin(box, both(halfSpaces, _frame.halfSpaces))) {
         const glm::dvec4 p = _frame.lightFromScene * corner;
         if (!(p.w > 0.0)) continue; // the lamp's own place
@@ -342,7 +388,12 @@ TexelDensity::TexelDensity(const LightFrame& frame, const glm::dmat4& clipFromSc
 void TexelDensity::addBox(const PlacedBox& box, const HalfSpaces& halfSpaces) {
     const glm::dvec3 normal = flatNormal(box);
     const double least = side * (normal == glm::dvec3(0.0) ? stretchOfBodies : mostStretch);
-    if (allCorners(box, [&](const glm::dvec4& corner) { return unstretched(corner) >= least; })) return;
+    const BoxFrom from(box);
+    if (_frame.isParallel && from.isPlain()) {
+        if (std::max(glm::dot(_pixel, from.middle) - from.reach(_pixel), 0.0) >= least) return;
+    } else if (allCorners(box, [&](const glm::dvec4& corner) { return unstretched(corner) >= least; })) {
+        return;
+    }
     for (const glm::dvec4& corner : cornersWithin(box, both(halfSpaces, _frame.halfSpaces)))
         if (inLight(corner).w > 0.0) side = std::min(side, unstretched(corner) / stretch(normal, corner));
 }
@@ -376,11 +427,9 @@ int texelsFor(double wanted, int most, int before) {
 SeenRange::SeenRange(const glm::dmat4& clipFromScene) : _w(glm::row(clipFromScene, 3)) {}
 
 void SeenRange::addBox(const PlacedBox& box, const HalfSpaces& halfSpaces) {
-    const auto known = [this](const glm::dvec4& corner) {
-        const double w = glm::dot(_w, corner);
-        return nearest <= w && w <= farthest;
-    };
-    if (allCorners(box, known)) return;
+    const BoxFrom from(box);
+    const double w = glm::dot(_w, from.middle), reach = from.reach(_w);
+    if (nearest <= w - reach && w + reach <= farthest) return;
     for (const glm::dvec4& corner : cornersWithin(box, halfSpaces)) {
         nearest = std::min(nearest, glm::dot(_w, corner));
         farthest = std::max(farthest, glm::dot(_w, corner));

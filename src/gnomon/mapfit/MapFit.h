@@ -91,6 +91,7 @@ public:
 private:
     bool surrounds(const glm::dvec2& at) const;
     bool covers(const glm::dvec4& inLight) const;
+    bool coversAll(const PlacedBox& box) const;
 
     LightFrame _frame;
 };
