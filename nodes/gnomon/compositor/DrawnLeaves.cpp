@@ -4,6 +4,7 @@
 #include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/gl/GlState.h>
 
+#include <glm/gtc/matrix_access.hpp>
 #include <osg/Camera>
 #include <osg/ColorMask>
 #include <osg/Depth>
@@ -17,6 +18,7 @@
 #include <algorithm>
 #include <climits>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <numeric>
@@ -229,7 +231,7 @@ const osg::Matrixd& matrixOf(const osg::RefMatrix* matrix) {
 }
 
 bool isSameLens(const osg::Matrixd& a, const osg::Matrixd& b) {
-    for (int row = 0; row < 4; ++row)
+    for (int row = 0; row < 4 && &a != &b; ++row)
         for (const int column : {0, 1, 3})
             if (a(row, column) != b(row, column)) return false;
     return true;
@@ -245,7 +247,39 @@ bool isSamePlace(const osg::Matrixd& a, const osg::Matrixd& b, double rounding) 
 }
 
 void DrawablePlaces::add(const osg::Drawable& drawable, const osg::Matrixd& place) {
-    _places.push_back({&drawable, along(place), place});
+    const bool shared = !_matrices.empty() && _matrices.back() == place;
+    if (!shared) _matrices.push_back(place);
+    _drawables.clear();
+    _places.push_back({&drawable, shared ? _places.back().along : along(place), _matrices.size() - 1});
+}
+
+/// Many drawables that stand in one frame are asked for in a row.
+bool DrawablePlaces::isAt(const Place& known, const osg::Matrixd& place, double rounding) const {
+    if (known.matrix == _asIn && place == _asked) return true;
+    if (!isSamePlace(_matrices[known.matrix], place, rounding)) return false;
+    _asIn = known.matrix;
+    _asked = place;
+    return true;
+}
+
+/// Most that are missed are out of sight: a sort is for what is drawn in another order.
+bool DrawablePlaces::isIn(const osg::Drawable& drawable) const {
+    if (_drawables.empty()) {
+        std::size_t size = 4;
+        while (size < 2 * _places.size()) size *= 2;
+        _drawables.resize(size, nullptr);
+        for (const Place& place : _places) *slotOf(*place.drawable) = place.drawable;
+    }
+    return *slotOf(drawable) != nullptr;
+}
+
+/// That of a drawable in the table, or the free one that it would take.
+const osg::Drawable** DrawablePlaces::slotOf(const osg::Drawable& drawable) const {
+    const std::size_t last = _drawables.size() - 1; // all bits are set
+    const auto address = std::uint64_t{reinterpret_cast<std::uintptr_t>(&drawable)};
+    std::size_t at = (address * 0x9e3779b97f4a7c15u) >> 32 & last;
+    while (_drawables[at] && _drawables[at] != &drawable) at = (at + 1) & last;
+    return &_drawables[at];
 }
 
 std::pair<DrawablePlaces::Order::const_iterator, DrawablePlaces::Order::const_iterator>
@@ -273,13 +307,14 @@ bool DrawablePlaces::has(const osg::Drawable& drawable) const {
 }
 
 bool DrawablePlaces::hasAt(const osg::Drawable& drawable, const osg::Matrixd& place, double rounding) const {
-    const osg::Vec3d at = place.getTrans();
-    const double margin = 1e-9 * (1.0 + std::abs(at.x()) + std::abs(at.y()) + std::abs(at.z())) + 2.0 * rounding;
-    const auto isThere = [&](unsigned i) { return isSamePlace(_places[i].matrix, place, rounding); };
+    const auto isThere = [&](unsigned i) { return isAt(_places[i], place, rounding); };
     if (_next < _places.size() && _places[_next].drawable == &drawable && isThere(_next)) {
         ++_next;
         return true;
     }
+    if (!isIn(drawable)) return false;
+    const osg::Vec3d at = place.getTrans();
+    const double margin = 1e-9 * (1.0 + std::abs(at.x()) + std::abs(at.y()) + std::abs(at.z())) + 2.0 * rounding;
     const auto [first, end] = between(drawable, along(place) - margin, along(place) + margin);
     const auto found = std::find_if(first, end, isThere);
     if (found == end) return false;
@@ -425,17 +460,27 @@ std::optional<ScreenRect> screenBoundsOf(const osgUtil::RenderLeaf& leaf) {
     const osg::BoundingBox& box = leaf._drawable->getBoundingBox();
     if (!box.valid()) return wholeScreen;
     const glm::dmat4 clipFromLocal = toGlm(modelviewOf(leaf) * projectionOf(leaf));
-    std::vector<glm::dvec4> corners;
-    corners.reserve(8);
-    for (unsigned i = 0; i < 8; ++i)
-        corners.push_back(clipFromLocal * glm::dvec4(toGlm(osg::Vec3d(box.corner(i))), 1.0));
-    return screenBounds(corners);
+    return screenBounds(boxCorners(toGlm(osg::Vec3d(box._min)), toGlm(osg::Vec3d(box._max)), clipFromLocal));
 }
 
 bool TouchTest::operator()(const osgUtil::RenderLeaf& leaf) {
-    if ((_moved && _moved->count(&leaf) > 0) || !_filled(leaf)) return true;
-    const auto place = screenBoundsOf(leaf);
-    return place && overlap(*place, _bounds);
+    const osg::BoundingBox& box = leaf._drawable->getBoundingBox();
+    if (_isAll || !box.valid() || (_moved && _moved->count(&leaf) > 0) || !_filled(leaf)) return true;
+    if (!_modelview || leaf._modelview != _modelview || leaf._projection != _projection) cutAt(leaf);
+    const glm::dvec3 low = toGlm(osg::Vec3d(box._min)), high = toGlm(osg::Vec3d(box._max));
+    const glm::dvec4 middle((low + high) / 2.0, 1.0);
+    const glm::dvec3 half = (high - low) / 2.0;
+    return std::none_of(_sides.begin(), _sides.end(), [&](const glm::dvec4& side) {
+        return glm::dot(side, middle) + glm::dot(glm::abs(glm::dvec3(side)), half) < 0.0;
+    });
+}
+
+void TouchTest::cutAt(const osgUtil::RenderLeaf& leaf) {
+    _modelview = leaf._modelview.get();
+    _projection = leaf._projection.get();
+    const glm::dmat4 clipFromLocal = toGlm(modelviewOf(leaf) * projectionOf(leaf));
+    const glm::dvec4 x = glm::row(clipFromLocal, 0), y = glm::row(clipFromLocal, 1), w = glm::row(clipFromLocal, 3);
+    _sides = {x - _bounds.low.x * w, _bounds.high.x * w - x, y - _bounds.low.y * w, _bounds.high.y * w - y};
 }
 
 } // namespace gnomon

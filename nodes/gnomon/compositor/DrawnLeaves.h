@@ -5,11 +5,13 @@
 #include <gnomon/Selection.h>
 #include <gnomon/geometry/ScreenBounds.h>
 
+#include <glm/vec4.hpp>
 #include <osg/ColorMask>
 #include <osg/StateAttribute>
 #include <osgUtil/RenderLeaf>
 #include <osgUtil/RenderStage>
 
+#include <array>
 #include <map>
 #include <optional>
 #include <set>
@@ -50,17 +52,25 @@ public:
 private:
     struct Place {
         const osg::Drawable* drawable;
-        double along; ///< an axis, on which those of a grid are apart.
-        osg::Matrixd matrix;
+        double along;       ///< an axis, on which those of a grid are apart.
+        std::size_t matrix; ///< in _matrices.
     };
     using Order = std::vector<unsigned>;
+    bool isIn(const osg::Drawable& drawable) const;
+    const osg::Drawable** slotOf(const osg::Drawable& drawable) const;
     /// Those of a drawable between two places along the axis.
     std::pair<Order::const_iterator, Order::const_iterator> between(const osg::Drawable& drawable, double low,
                                                                     double high) const;
 
+    bool isAt(const Place& known, const osg::Matrixd& place, double rounding) const;
+
     std::vector<Place> _places;
-    mutable Order _order;       ///< by drawable and axis, once those asked for come in another order.
-    mutable unsigned _next = 0; ///< The place after that which was found last.
+    std::vector<osg::Matrixd> _matrices; ///< of places; those that follow each other mostly share one.
+    mutable Order _order;                ///< by drawable and axis, once those asked for come in another order.
+    mutable std::vector<const osg::Drawable*> _drawables; ///< a table of them by address, once any is missed.
+    mutable unsigned _next = 0;                           ///< The place after that which was found last.
+    mutable osg::Matrixd _asked; ///< The place that was asked for last, and which of _matrices it was found to be.
+    mutable std::size_t _asIn = ~std::size_t{0};
 };
 
 /// Every leaf that the stage draws before bin `number`, in the order in which it is drawn. Valid from the end of sort
@@ -144,13 +154,21 @@ std::optional<ScreenRect> screenBoundsOf(const osgUtil::RenderLeaf& leaf);
 class TouchTest {
 public:
     /// @param moved  leaves that a program moves, wherever; null: none. Must outlive this.
-    explicit TouchTest(const ScreenRect& bounds, const LeafSet* moved = nullptr) : _bounds(bounds), _moved(moved) {}
+    explicit TouchTest(const ScreenRect& bounds, const LeafSet* moved = nullptr)
+        : _bounds(bounds), _isAll(bounds.low == wholeScreen.low && bounds.high == wholeScreen.high), _moved(moved) {}
+    /// True at least where the leaf's box may be seen in that part.
     bool operator()(const osgUtil::RenderLeaf& leaf);
 
 private:
+    void cutAt(const osgUtil::RenderLeaf& leaf);
+
     const ScreenRect _bounds;
+    const bool _isAll; ///< of the screen: whatever is drawn touches it.
     const LeafSet* const _moved;
     FilledTest _filled;
+    const osg::RefMatrix *_modelview = nullptr,
+                         *_projection = nullptr; ///< of a leaf; those that follow mostly share them.
+    std::array<glm::dvec4, 4> _sides{};          ///< of that part, half-spaces of such a leaf's frame.
 };
 
 } // namespace gnomon

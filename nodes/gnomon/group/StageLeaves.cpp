@@ -75,10 +75,9 @@ void ProgramCauses::findStanding(const osg::Matrixd& projection) const {
     }
 }
 
-bool ProgramCauses::draws(const Caster& caster, const ViewFrame& view) const {
-    if (!_standing || !isSameLens(_lens, view.projection)) findStanding(view.projection);
-    const osg::Vec3d inGroup = caster.groupFromLocal.getTrans();
-    return _standing->hasAt(*caster.drawable, caster.groupFromLocal * view.eyeFromGroup, 1e-14 * inGroup.length());
+const DrawablePlaces& ProgramCauses::standing(const osg::Matrixd& projection) const {
+    if (!_standing || !isSameLens(_lens, projection)) findStanding(projection);
+    return *_standing;
 }
 
 void ProgramCauses::report(const FrameReport& report, const ShadowCasterGroup& group, const Leaves& receiving,

@@ -52,17 +52,17 @@ using Leaves = std::vector<const osgUtil::RenderLeaf*>;
 /// What the programs of one view do that shadows cannot follow, for diagnose(); and which casters the view draws where they stand.
 /// Asked for once a view.
 ///
-/// Cost    a look at each state's program, and once at each program's text. draws(): the leaves are sorted once, where those of
+/// Cost    a look at each state's program, and once at each program's text. standing(): the leaves are sorted once, where those of
 ///         casters are in another order.
 class ProgramCauses {
 public:
     ProgramCauses() = default;
     explicit ProgramCauses(osgUtil::RenderStage& stage);
 
-    /// True if the view has a leaf of a caster at its place, whose vertices, depth and fragments are those that its arrays give:
-    /// its depth stands, then, and hides what is behind it. What a cull or a draw callback, an occluder or small feature culling
-    /// leaves out, does not.
-    bool draws(const Caster& caster, const ViewFrame& view) const;
+    /// Where the view has leaves whose vertices, depth and fragments are those that their arrays give: their depth stands, then,
+    /// and hides what is behind them. What a cull or a draw callback, an occluder or small feature culling leaves out, does
+    /// not.
+    const DrawablePlaces& standing(const osg::Matrixd& projection) const;
 
     /// For a technique of this group with these receivers.
     void report(const FrameReport& report, const ShadowCasterGroup& group, const Leaves& receiving,

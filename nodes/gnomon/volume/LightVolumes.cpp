@@ -4,9 +4,9 @@
 #include <gnomon/compositor/DrawnLeaves.h>
 #include <gnomon/geometry/Across.h>
 #include <gnomon/group/StageLeaves.h>
-#include <gnomon/silhouette/StencilBatches.h>
 #include <gnomon/volume/LightVolumes.h>
 
+#include <OpenThreads/ScopedLock>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
@@ -52,22 +52,26 @@ glm::dvec4 lightIn(const VolumeCaster& caster, const glm::dvec4& lightInScene) {
     return light.w == 0.0 ? glm::dvec4(glm::normalize(glm::dvec3(light)), 0.0) : light;
 }
 
-/// Where the volume of a part is across the light, in a plane of two coordinates; a lamp's are those of a globe.
-PrismLayers layersOf(const LightVolumes& of, unsigned index, unsigned capacity) {
+/// Where the volume of a part is across the light, in a plane of two coordinates of the scene; a lamp's are those of a globe.
+PrismLayers layersOf(const LightVolumes& of, unsigned index) {
     const SilhouetteMesh::Part& part = of.caster().mesh->parts[index];
-    const glm::dvec4& light = of.volumes().light;
-    const glm::dvec3 low(part.low), high(part.high), middle = (low + high) / 2.0, half = (high - low) / 2.0;
-    PrismLayers layers{glm::dvec2(-4.0), glm::dvec2(4.0), 1, std::min(of.volumes().parts[index].layers, capacity)};
+    const glm::dvec4& light = of.light();
+    const glm::dmat4& sceneFromMesh = of.caster().sceneFromMesh;
+    const glm::dvec3 low(part.low), high(part.high), half = (high - low) / 2.0,
+                                                     middle(sceneFromMesh * glm::dvec4((low + high) / 2.0, 1.0));
+    glm::dvec3 reach(0.0); // of a box in the scene that holds that of the part
+    for (int axis = 0; axis < 3; ++axis) reach += half[axis] * glm::abs(glm::dvec3(sceneFromMesh[axis]));
+    PrismLayers layers{glm::dvec2(-4.0), glm::dvec2(4.0), 1, of.volumes().parts[index].layers};
     if (light.w == 0.0) {
         const auto [u, v] = across(glm::dvec3(light));
         const glm::dvec2 at(glm::dot(middle, u), glm::dot(middle, v)),
-            reach(glm::dot(half, glm::abs(u)), glm::dot(half, glm::abs(v)));
-        layers.low = at - reach;
-        layers.high = at + reach;
+            aside(glm::dot(reach, glm::abs(u)), glm::dot(reach, glm::abs(v)));
+        layers.low = at - aside;
+        layers.high = at + aside;
         return layers;
     }
     const glm::dvec3 away = awayFrom(light, middle);
-    const double distance = glm::length(away), radius = glm::length(half);
+    const double distance = glm::length(away), radius = glm::length(reach);
     if (!(distance > radius)) return layers;
     const double angle = std::asin(radius / distance), height = std::asin(std::clamp(away.z / distance, -1.0, 1.0));
     layers.low.y = height - angle;
@@ -151,7 +155,9 @@ bool isUnseen(const LightVolumes& volumes, const SilhouetteMesh::Part& part, con
 }
 
 /// Adds the parts of a mesh that can be seen.
-void lookAt(LightVolumes& volumes, const glm::dmat4& clipFromScene, const UnseenCasters& unseen, SeenVolumes& all) {
+/// @param number  of it, among all of the light.
+void lookAt(LightVolumes& volumes, std::size_t number, const glm::dmat4& clipFromScene, const UnseenCasters& unseen,
+            SeenVolumes& all) {
     const SilhouetteMesh& mesh = *volumes.caster().mesh;
     const glm::dmat4 clipFromMesh = clipFromScene * volumes.caster().sceneFromMesh;
     if (mesh.parts.empty()) return;
@@ -161,7 +167,7 @@ void lookAt(LightVolumes& volumes, const glm::dmat4& clipFromScene, const Unseen
         const ShadowVolumes::Part& volume = volumes.volumes().parts[i];
         const VolumeHull hull = volumeHull(glm::dvec3(mesh.parts[i].low), glm::dvec3(mesh.parts[i].high), volume.end,
                                            volumes.volumes().light, clipFromMesh);
-        const auto bounds = boundsOf(hull);
+        const auto bounds = screenBounds(hull);
         if (!bounds) continue;
         const bool cut = std::any_of(hull.begin(), hull.begin() + 8, [](const auto& at) { return at.z <= -at.w; });
         const bool shows = isInSight(hull) && (!volumes.caster().hides(mesh.parts[i], start.eye) ||
@@ -174,7 +180,7 @@ void lookAt(LightVolumes& volumes, const glm::dmat4& clipFromScene, const Unseen
         all.parts.push_back({all.meshes.size(), i, holding, showsBack, {}});
     }
     if (all.parts.size() == before) return;
-    all.meshes.push_back({&volumes, clipFromMesh, giveCaps(volumes, all.parts, before)});
+    all.meshes.push_back({&volumes, number, clipFromMesh, giveCaps(volumes, all.parts, before)});
 }
 
 } // namespace
@@ -223,13 +229,21 @@ bool UnseenCasters::touch(const glm::dvec3& low, const glm::dvec3& high) const {
 UnseenCasters unseenCasters(const CasterLayers& casters, const ViewFrame& view, const SceneFrame& scene) {
     UnseenCasters unseen;
     if (!view.drawn) return unseen;
+    const DrawablePlaces& drawn = view.drawn->standing(view.projection);
     const glm::dmat4 clipFromScene = scene.clipFromScene(view);
+    const osg::Matrixd* groupFromLocal = nullptr; // of pieces that follow each other mostly the same
+    osg::Matrixd eyeFromLocal;
     for (const auto& layer : {casters.still, casters.moving})
         for (const auto& piece : layer->pieces) {
-            if (piece->hiding == Hiding::Neither || view.drawn->draws(*piece, view)) continue;
+            if (piece->hiding == Hiding::Neither) continue;
+            if (!groupFromLocal || piece->groupFromLocal != *groupFromLocal)
+                eyeFromLocal = piece->groupFromLocal * view.eyeFromGroup;
+            groupFromLocal = &piece->groupFromLocal;
+            if (drawn.hasAt(*piece->drawable, eyeFromLocal, 1e-14 * piece->groupFromLocal.getTrans().length()))
+                continue;
             const ReceiverBox box{scene.point(piece->bounds._min), scene.point(piece->bounds._max)};
             const auto corners = boxCorners(box.low, box.high, clipFromScene);
-            if (!screenBounds({corners.begin(), corners.end()})) continue; // as out of sight
+            if (!screenBounds(corners)) continue; // as out of sight
             unseen.boxes.push_back(box);
             unseen.widest = std::max(unseen.widest, box.high.x - box.low.x);
         }
@@ -298,49 +312,57 @@ void LightVolumes::releaseGLObjects(osg::State* state) const {
 
 VolumeHull volumeHull(const glm::dvec3& low, const glm::dvec3& high, const glm::dvec4& end, const glm::dvec4& light,
                       const glm::dmat4& clipFromBox) {
+    const auto corners = boxCorners(low, high, clipFromBox);
+    const glm::dvec4 awayFromSun = clipFromBox * glm::dvec4(awayFrom(light, low), 0.0); // the same anywhere
     VolumeHull points;
     for (unsigned i = 0; i < 8; ++i) {
         const glm::dvec3 corner(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z);
-        const glm::dvec3 away = awayFrom(light, corner);
+        const glm::dvec4 away = light.w == 0.0 ? awayFromSun : clipFromBox * glm::dvec4(awayFrom(light, corner), 0.0);
         const double length = lengthTo(end, corner, light);
-        points[i] = clipFromBox * glm::dvec4(corner, 1.0);
-        points[i + 8] = clipFromBox * (length < 0.0 ? glm::dvec4(away, 0.0) : glm::dvec4(corner + length * away, 1.0));
+        points[i] = corners[i];
+        points[i + 8] = length < 0.0 ? away : corners[i] + length * away;
     }
     return points;
 }
 
-std::optional<ScreenRect> boundsOf(const VolumeHull& hull) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    ScreenRect rect{glm::dvec2(infinity), glm::dvec2(-infinity)};
-    for (const glm::dvec4& point : hull) {
-        if (!(point.w > 1e-6 * (std::abs(point.x) + std::abs(point.y))))
-            return screenBounds({hull.begin(), hull.end()});
-        const glm::dvec2 at = glm::dvec2(point) / point.w;
-        rect.low = glm::min(rect.low, at);
-        rect.high = glm::max(rect.high, at);
+VolumeRounds::VolumeRounds(const std::vector<osg::ref_ptr<LightVolumes>>& all) {
+    for (const osg::ref_ptr<LightVolumes>& volumes : all) {
+        _first.push_back(_layers.size());
+        for (unsigned i = 0; i < volumes->volumes().parts.size(); ++i) {
+            _layers.push_back(layersOf(*volumes, i));
+            _most += _layers.back().mostOver;
+        }
     }
-    rect = common(rect, wholeScreen);
-    if (isEmpty(rect)) return std::nullopt;
-    return rect;
 }
 
+std::vector<unsigned> VolumeRounds::of(unsigned capacity) const {
+    OpenThreads::ScopedLock<OpenThreads::Mutex> lock(_mutex);
+    if (_capacity == capacity) return _rounds;
+    _capacity = capacity;
+    _rounds.assign(_layers.size(), 0);
+    if (_most <= capacity) return _rounds;
+    std::vector<PrismLayers> counted = _layers;
+    for (PrismLayers& layers : counted) layers.mostOver = std::min(layers.mostOver, capacity);
+    unsigned round = 0;
+    for (const std::vector<LayerSlice>& together : stencilBatches(counted, capacity)) {
+        for (const LayerSlice& slice : together) _rounds[slice.tile] = round;
+        ++round;
+    }
+    return _rounds;
+}
+
+/// Parts in the order in which they lie in memory.
 std::vector<VolumeRound> SeenVolumes::rounds(unsigned capacity) const {
-    std::size_t layers = 0;
-    for (const SeenPart& seen : parts) layers += volumeOf(*this, seen).layers;
-    if (layers <= capacity) {
-        std::vector<VolumeRound> all(1);
-        for (const SeenPart& seen : parts) add(all.front(), *this, seen);
-        return all;
+    std::vector<unsigned> numbers;
+    if (inRounds) numbers = inRounds->of(capacity);
+    std::vector<VolumeRound> all(1);
+    for (const SeenPart& seen : parts) {
+        const std::size_t round = inRounds ? numbers[inRounds->firstOf(meshes[seen.mesh].number) + seen.part] : 0;
+        if (all.size() <= round) all.resize(round + 1);
+        add(all[round], *this, seen);
     }
-    std::vector<PrismLayers> prisms;
-    for (const SeenPart& seen : parts) prisms.push_back(layersOf(*meshes[seen.mesh].volumes, seen.part, capacity));
-    std::vector<VolumeRound> all;
-    for (std::vector<LayerSlice>& round : stencilBatches(prisms, capacity)) {
-        std::sort(round.begin(), round.end(),
-                  [](const LayerSlice& a, const LayerSlice& b) { return a.tile < b.tile; }); // as they lie in memory
-        all.emplace_back();
-        for (const LayerSlice& slice : round) add(all.back(), *this, parts[slice.tile]);
-    }
+    const auto isEmpty = [](const VolumeRound& round) { return round.shares.empty(); };
+    all.erase(std::remove_if(all.begin(), all.end(), isEmpty), all.end());
     return all;
 }
 
@@ -367,7 +389,7 @@ double SeenVolumes::vertexStep(double width, double near) const {
 std::optional<SeenVolumes> seenVolumes(const std::vector<osg::ref_ptr<LightVolumes>>& all,
                                        const glm::dmat4& clipFromScene, const UnseenCasters& unseen) {
     SeenVolumes result;
-    for (const osg::ref_ptr<LightVolumes>& volumes : all) lookAt(*volumes, clipFromScene, unseen, result);
+    for (std::size_t i = 0; i < all.size(); ++i) lookAt(*all[i], i, clipFromScene, unseen, result);
     if (result.parts.empty()) return std::nullopt;
     return result;
 }

@@ -7,7 +7,9 @@
 #include <gnomon/group/SceneFrame.h>
 #include <gnomon/silhouette/ShadowVolumes.h>
 #include <gnomon/silhouette/SilhouetteMesh.h>
+#include <gnomon/silhouette/StencilBatches.h>
 
+#include <OpenThreads/Mutex>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -83,6 +85,8 @@ public:
     void set(const VolumeCaster& caster, const glm::dvec4& light, const ReceiverBox& receivers);
 
     const VolumeCaster& caster() const { return _caster; }
+    /// In the scene.
+    const glm::dvec4& light() const { return _light; }
     const ShadowVolumes& volumes() const { return _volumes; }
     const VolumeGeometry& sides() const { return *_sides; }
     /// What closes the volumes of some parts; made once for the same ones.
@@ -113,12 +117,35 @@ using VolumeHull = std::array<glm::dvec4, 16>;
 VolumeHull volumeHull(const glm::dvec3& low, const glm::dvec3& high, const glm::dvec4& end, const glm::dvec4& light,
                       const glm::dmat4& clipFromBox);
 
-/// As screenBounds(), which is slower.
-std::optional<ScreenRect> boundsOf(const VolumeHull& hull);
+/// Shares out the volumes of one light to rounds, wherever they are seen from: made once while they are the same.
+///
+/// Cost     a look at each volume; where a counter might pass its range a sort, see stencilBatches().
+/// Threads  any number.
+class VolumeRounds : public osg::Referenced {
+public:
+    explicit VolumeRounds(const std::vector<osg::ref_ptr<LightVolumes>>& all);
+
+    /// The round of each part, mesh by mesh. @param capacity  what a counter can count to, 1 or more.
+    std::vector<unsigned> of(unsigned capacity) const;
+    /// The place in of() where a mesh begins.
+    std::size_t firstOf(std::size_t mesh) const { return _first[mesh]; }
+
+protected:
+    ~VolumeRounds() override = default;
+
+private:
+    std::vector<PrismLayers> _layers; ///< of each part; how many of them hold one point at most.
+    std::vector<std::size_t> _first;
+    std::size_t _most = 0; ///< of all together.
+    mutable OpenThreads::Mutex _mutex;
+    mutable unsigned _capacity = 0; ///< which _rounds are for; 0: none yet.
+    mutable std::vector<unsigned> _rounds;
+};
 
 /// The volumes of one mesh in one view.
 struct MeshInView {
     osg::ref_ptr<const LightVolumes> volumes;
+    std::size_t number; ///< among all meshes of the light.
     glm::dmat4 clipFromMesh{1.0};
     osg::ref_ptr<const VolumeGeometry> caps; ///< null: none are needed.
 };
@@ -153,7 +180,8 @@ struct VolumeRound {
 struct SeenVolumes {
     std::vector<MeshInView> meshes;
     std::vector<SeenPart> parts;
-    ScreenRect bounds{}; ///< where they can be seen.
+    ScreenRect bounds{};                       ///< where they can be seen.
+    osg::ref_ptr<const VolumeRounds> inRounds; ///< null: one holds them all.
 
     /// @param capacity  what a counter can count to, 1 or more.
     std::vector<VolumeRound> rounds(unsigned capacity) const;

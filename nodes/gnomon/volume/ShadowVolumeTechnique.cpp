@@ -17,7 +17,7 @@ namespace {
 /// Marks of one light in one view: what is in a volume.
 class VolumeMark : public Mark {
 public:
-    SeenVolumes seen;
+    std::shared_ptr<const SeenVolumes> seen; ///< never null.
     osg::ref_ptr<const osg::StateSet> program;
     glm::dvec2 pushedBack{0.0}; ///< see ViewFrame.
 
@@ -122,7 +122,7 @@ std::string VolumeMark::draw(ScreenPass& pass) const {
     const unsigned bit = pass.bit();
     const unsigned counters = pass.counters() ? pass.counters() : bit;
     const unsigned capacity = counters & 1u ? counters : 1u; // one bit tells odd from even
-    const std::vector<VolumeRound> rounds = seen.rounds(capacity);
+    const std::vector<VolumeRound> rounds = seen->rounds(capacity);
     if (!pass.counters() && rounds.size() > 1) return noCounter;
     for (const VolumeRound& round : rounds) {
         if (round.holding) { // what all pixels begin with
@@ -132,8 +132,8 @@ std::string VolumeMark::draw(ScreenPass& pass) const {
         }
         state.apply(program.get());
         if (!hasProgram(state)) return noProgram;
-        for (const auto& [mesh, share] : round.shares) count(pass, counters, seen.meshes[mesh], share);
-        for (const auto& [mesh, share] : round.shares) uncountBacks(pass, counters, seen.meshes[mesh], share);
+        for (const auto& [mesh, share] : round.shares) count(pass, counters, seen->meshes[mesh], share);
+        for (const auto& [mesh, share] : round.shares) uncountBacks(pass, counters, seen->meshes[mesh], share);
         glFrontFace(GL_CCW);
         state.apply();
         if (pass.counters())
@@ -141,7 +141,7 @@ std::string VolumeMark::draw(ScreenPass& pass) const {
         else
             unmarkFar(pass, bit);
     }
-    return seen.overflow(capacity) ? overflow : "";
+    return seen->overflow(capacity) ? overflow : "";
 }
 
 void VolumeMark::drawDebugView(ScreenPass& pass, int) const {
@@ -151,13 +151,13 @@ void VolumeMark::drawDebugView(ScreenPass& pass, int) const {
     pass.beginReplace();
     pass.testDepth(GL_LEQUAL, false);
     glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
-    for (const VolumeRound& round : seen.rounds(~0u))
+    for (const VolumeRound& round : seen->rounds(~0u))
         for (const auto& [mesh, share] : round.shares) {
-            place(state, seen.meshes[mesh]);
+            place(state, seen->meshes[mesh]);
             setUniform(state, "wire", glm::dvec4(1.0, 0.85, 0.0, 1.0));
-            drawSides(pass.renderInfo(), seen.meshes[mesh].volumes->sides(), share.entered);
+            drawSides(pass.renderInfo(), seen->meshes[mesh].volumes->sides(), share.entered);
             setUniform(state, "wire", glm::dvec4(1.0, 0.2, 0.1, 1.0));
-            drawSides(pass.renderInfo(), seen.meshes[mesh].volumes->sides(), share.left);
+            drawSides(pass.renderInfo(), seen->meshes[mesh].volumes->sides(), share.left);
         }
     glFrontFace(GL_CCW);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
@@ -199,12 +199,12 @@ std::vector<osg::ref_ptr<Mark>> ShadowVolumeTechnique::prepare(const ViewFrame& 
         report(view.frameNumber, notUsable(light.inGroup));
         return {};
     }
-    std::optional<SeenVolumes> seen = _cache->see(layers, view, light.number, *usable, scene);
+    const std::shared_ptr<const SeenVolumes> seen = _cache->see(layers, view, light.number, *usable, scene);
     if (!seen) return {}; // out of sight: nothing to say
     if (seen->vertexStep(view.pixels.x(), nearOf(view.projection)) > mostOff) report(view.frameNumber, coarse);
     osg::ref_ptr<VolumeMark> mark = new VolumeMark;
-    mark->seen = std::move(*seen);
-    mark->screenBounds = mark->seen.bounds;
+    mark->seen = seen;
+    mark->screenBounds = seen->bounds;
     mark->program = _cache->program;
     mark->pushedBack = {view.pushedBack.x(), view.pushedBack.y()};
     mark->hasDebugView = _options.view == VOLUMES;

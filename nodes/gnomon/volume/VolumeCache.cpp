@@ -51,8 +51,8 @@ std::vector<VolumeCaster> castersOf(const CasterLayers& casters) {
 
 VolumeCache::VolumeCache() : program(shaderProgram("#define EXTRUDE\n")) {}
 
-std::optional<SeenVolumes> VolumeCache::see(const CasterLayers& casters, const ViewFrame& view, int lightNumber,
-                                            const glm::dvec4& light, const SceneFrame& scene) {
+std::shared_ptr<const SeenVolumes> VolumeCache::see(const CasterLayers& casters, const ViewFrame& view, int lightNumber,
+                                                    const glm::dvec4& light, const SceneFrame& scene) {
     const ReceiverBox receivers = receiversOf(view, scene);
     Lock lock(_mutex);
     Found& found = _found.of(view.key, lightNumber, view.frameNumber);
@@ -60,10 +60,32 @@ std::optional<SeenVolumes> VolumeCache::see(const CasterLayers& casters, const V
         found.receivers = receivers;
     else if (!found.receivers->fits(receivers))
         found.receivers = receivers.grown();
-    const std::vector<VolumeCaster> all = castersOf(casters);
-    found.volumes.resize(all.size());
-    for (std::size_t i = 0; i < all.size(); ++i) update(found.volumes[i], all[i], light, *found.receivers);
-    return seenVolumes(found.volumes, scene.clipFromScene(view), unseenCasters(casters, view, scene));
+    const bool same = follow(found, castersOf(casters), light);
+    const glm::dmat4 clipFromScene = scene.clipFromScene(view);
+    UnseenCasters unseen = unseenCasters(casters, view, scene);
+    if (same && clipFromScene == found.clipFromScene && unseen.boxes == found.unseen.boxes) return found.seen;
+    found.seen = nullptr; // whose caps may be given up
+    found.clipFromScene = clipFromScene;
+    found.unseen = std::move(unseen);
+    if (std::optional<SeenVolumes> seen = seenVolumes(found.volumes, clipFromScene, found.unseen)) {
+        seen->inRounds = found.rounds;
+        found.seen = std::make_shared<const SeenVolumes>(std::move(*seen));
+    }
+    return found.seen;
+}
+
+/// @return true if all volumes are those that were found before.
+bool VolumeCache::follow(Found& found, const std::vector<VolumeCaster>& casters, const glm::dvec4& light) {
+    const auto are = [&](const osg::ref_ptr<LightVolumes>& volumes, const VolumeCaster& caster) {
+        return volumes->are(caster, light, *found.receivers);
+    };
+    if (found.rounds && std::equal(found.volumes.begin(), found.volumes.end(), casters.begin(), casters.end(), are))
+        return true;
+    found.seen = nullptr; // whose volumes may be given up
+    found.volumes.resize(casters.size());
+    for (std::size_t i = 0; i < casters.size(); ++i) update(found.volumes[i], casters[i], light, *found.receivers);
+    found.rounds = new VolumeRounds(found.volumes);
+    return false;
 }
 
 /// Those of another light give up their memory, unless they are still drawn.

@@ -6,6 +6,7 @@
 
 #include <OpenThreads/Mutex>
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -23,9 +24,9 @@ public:
 
     /// What a view sees of the volumes of all casters behind a light, found anew only where something changed.
     /// @param light  in the scene about the casters' origin, see lightInScene().
-    /// @return       nullopt if nothing can be seen.
-    std::optional<SeenVolumes> see(const CasterLayers& casters, const ViewFrame& view, int lightNumber,
-                                   const glm::dvec4& light, const SceneFrame& scene);
+    /// @return       null if nothing can be seen.
+    std::shared_ptr<const SeenVolumes> see(const CasterLayers& casters, const ViewFrame& view, int lightNumber,
+                                           const glm::dvec4& light, const SceneFrame& scene);
     /// How often volumes were found.
     unsigned builds() const;
 
@@ -38,9 +39,14 @@ private:
     /// What was found for a light in a view.
     struct Found {
         std::optional<ReceiverBox> receivers;            ///< the same as before while it fits.
-        std::vector<osg::ref_ptr<LightVolumes>> volumes; ///< of each caster.
+        std::vector<osg::ref_ptr<LightVolumes>> volumes; ///< of each caster,
+        osg::ref_ptr<const VolumeRounds> rounds;         ///< and how these are counted.
+        glm::dmat4 clipFromScene{0.0};                   ///< From here, with these unseen,
+        UnseenCasters unseen;
+        std::shared_ptr<const SeenVolumes> seen; ///< this was seen last; null if nothing was.
     };
 
+    bool follow(Found& found, const std::vector<VolumeCaster>& casters, const glm::dvec4& light);
     void update(osg::ref_ptr<LightVolumes>& volumes, const VolumeCaster& caster, const glm::dvec4& light,
                 const ReceiverBox& receivers);
 

@@ -143,10 +143,10 @@ public:
         const double flat = longest > 0.0 ? std::min({extent.x, extent.y, extent.z}) / longest : 0.0;
         const glm::dvec3 way = awayFrom(_light, (low + high) / 2.0);
         const double steep = std::abs(way.z) / std::max(std::hypot(way.x, way.y), 1e-9 * glm::length(way));
-        const auto seen = boundsOf(hull);
+        const auto seen = screenBounds(hull);
         if (!seen) return;
         const double sides = outlineOf(triangles, flat, steep);
-        const auto body = screenBounds({hull.begin(), hull.begin() + 8});
+        const auto body = screenBounds(hull.data(), 8);
         const double edge = across(body.value_or(*seen), _pixels) * std::sqrt(3.0 / std::max(triangles, 3.0));
         constexpr double slanted = 0.64; // of a length, seen from any side
         _all.sides += sides;
