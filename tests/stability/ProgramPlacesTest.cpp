@@ -53,9 +53,10 @@ Scene sceneOf(osg::Node* figure) {
 }
 
 /// Applies a program as osgEarth's VirtualProgram does: by a type of its own, or by a program's.
+constexpr auto ownType = osg::StateAttribute::Type(127); // the last that the enumeration can hold
 class Virtual : public osg::StateAttribute {
 public:
-    explicit Virtual(osg::Program* what = nullptr, Type type = Type(10000)) : _program(what), _type(type) {}
+    explicit Virtual(osg::Program* what = nullptr, Type type = ownType) : _program(what), _type(type) {}
     Virtual(const Virtual& other, const osg::CopyOp& copyOp)
         : osg::StateAttribute(other, copyOp), _program(other._program), _type(other._type) {}
     osg::Object* cloneType() const override { return new Virtual(nullptr, _type); }
