@@ -247,7 +247,7 @@ bool isSamePlace(const osg::Matrixd& a, const osg::Matrixd& b, double rounding) 
 }
 
 void DrawablePlaces::add(const osg::Drawable& drawable, const osg::Matrixd& place) {
-    const bool shared = !_matrices.empty() && _matrices.back() == place;
+    const bool shared = !_matrices.empty() && hasSameBits(_matrices.back(), place);
     if (!shared) _matrices.push_back(place);
     _drawables.clear();
     _places.push_back({&drawable, shared ? _places.back().along : along(place), _matrices.size() - 1});
@@ -255,7 +255,7 @@ void DrawablePlaces::add(const osg::Drawable& drawable, const osg::Matrixd& plac
 
 /// Many drawables that stand in one frame are asked for in a row.
 bool DrawablePlaces::isAt(const Place& known, const osg::Matrixd& place, double rounding) const {
-    if (known.matrix == _asIn && place == _asked) return true;
+    if (known.matrix == _asIn && hasSameBits(place, _asked)) return true;
     if (!isSamePlace(_matrices[known.matrix], place, rounding)) return false;
     _asIn = known.matrix;
     _asked = place;
@@ -394,9 +394,11 @@ std::string whyMissing(const Selection& selection, const char* role, const osg::
 
 bool isModeOn(const std::vector<DrawnLeaf>& leaves, osg::StateAttribute::GLMode mode) {
     std::set<const osgUtil::StateGraph*> seen;
+    const osgUtil::StateGraph* last = nullptr; // leaves of one state mostly follow each other
     for (const DrawnLeaf& entry : leaves) {
-        if (!seen.insert(entry.leaf->_parent).second) continue;
-        if (isOn(entry.leaf->_parent, mode)) return true;
+        if (entry.leaf->_parent == last) continue;
+        last = entry.leaf->_parent;
+        if (seen.insert(last).second && isOn(last, mode)) return true;
     }
     return false;
 }

@@ -12,6 +12,7 @@
 #include <osgUtil/RenderStage>
 
 #include <array>
+#include <cstring>
 #include <map>
 #include <optional>
 #include <set>
@@ -31,6 +32,11 @@ struct DrawnLeaf {
 const osg::Matrixd& matrixOf(const osg::RefMatrix* matrix);
 inline const osg::Matrixd& modelviewOf(const osgUtil::RenderLeaf& leaf) { return matrixOf(leaf._modelview.get()); }
 inline const osg::Matrixd& projectionOf(const osgUtil::RenderLeaf& leaf) { return matrixOf(leaf._projection.get()); }
+
+/// True if two matrices are the same to the last bit, signs of zeros included.
+inline bool hasSameBits(const osg::Matrixd& a, const osg::Matrixd& b) {
+    return std::memcmp(a.ptr(), b.ptr(), 16 * sizeof(double)) == 0;
+}
 
 /// True if two views have the same lens: the same but for near and far, which a nested camera finds for itself.
 bool isSameLens(const osg::Matrixd& a, const osg::Matrixd& b);

@@ -119,17 +119,22 @@ bool isDrawnPlainly(const osgUtil::StateGraph* graph) {
 std::vector<VastLeaf> vastLeaves(const std::vector<DrawnLeaf>& leaves, const osg::Viewport& viewport) {
     std::vector<VastLeaf> result;
     FilledTest filled;
+    const osgUtil::RenderLeaf* last = nullptr; // leaves that share matrices mostly follow one another
+    double near = 0.0, longest = 0.0, scale = 0.0;
     for (const DrawnLeaf& entry : leaves) {
         const osgUtil::RenderLeaf& leaf = *entry.leaf;
         const osg::Matrixd& projection = projectionOf(leaf);
         if (projection(3, 3) != 0.0 || !(projection(2, 2) < -1.0)) continue; // no perspective, or an endless one
-        const double near = projection(3, 2) / (projection(2, 2) - 1.0),
-                     pixel = 2.0 / (projection(1, 1) * pixelsOf(viewport).height),
-                     longest = tolerance / lost * near * pixel;
+        if (!last || last->_projection != leaf._projection) {
+            near = projection(3, 2) / (projection(2, 2) - 1.0);
+            longest = tolerance / lost * near * 2.0 / (projection(1, 1) * pixelsOf(viewport).height);
+        }
+        if (!last || last->_modelview != leaf._modelview) scale = scaleOf(modelviewOf(leaf));
+        last = &leaf;
         const osg::BoundingBox& box = leaf._drawable->getBoundingBox();
         const osg::Geometry* geometry = leaf._drawable->asGeometry();
-        const double scale = scaleOf(modelviewOf(leaf));
-        if (!geometry || !box.valid() || !(2.0 * scale * double{box.radius()} > longest)) continue;
+        const double size = scale * osg::Vec3d(box._max - box._min).length();
+        if (!geometry || !box.valid() || !(size > longest)) continue;
         if (!isSimple(*geometry) || !isDrawnPlainly(leaf._parent) || !filled(leaf)) continue;
         osg::TriangleFunctor<Cutter> cutter;
         cutter.clipFromLocal = toGlm(modelviewOf(leaf) * projection);

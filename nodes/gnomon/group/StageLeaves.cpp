@@ -40,15 +40,20 @@ ViewFrame viewOf(const EnlistedTechnique& entry, const osg::Viewport& viewport) 
 
 ProgramCauses::ProgramCauses(osgUtil::RenderStage& stage)
     : _eyeFromWorld(*stage.getInitialViewMatrix()), _all(leavesBelow(stage, std::numeric_limits<int>::max())) {
+    const osgUtil::StateGraph* graph = nullptr; // leaves of one state mostly follow each other
+    const ProgramPlaces* places = nullptr;
     for (const DrawnLeaf& entry : _all) {
-        const auto [places, isNew] = _places.try_emplace(entry.leaf->_parent);
-        if (isNew) places->second = placesIn(entry.leaf->_parent);
-        if (places->second.unseen) {
+        if (entry.leaf->_parent != graph) {
+            const auto [known, isNew] = _places.try_emplace(graph = entry.leaf->_parent);
+            if (isNew) known->second = placesIn(graph);
+            places = &known->second;
+        }
+        if (places->unseen) {
             _unseen.push_back(entry);
             continue;
         }
-        if (places->second.movesVertices && !drawsItself(*entry.leaf->_drawable)) _moving.push_back(entry);
-        if (places->second.setsDepth) _setDepths.insert(entry.leaf);
+        if (places->movesVertices && !drawsItself(*entry.leaf->_drawable)) _moving.push_back(entry);
+        if (places->setsDepth) _setDepths.insert(entry.leaf);
     }
     if (_moving.empty() && _unseen.empty()) return;
     auto moved = std::make_shared<LeafSet>();

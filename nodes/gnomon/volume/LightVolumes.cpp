@@ -15,6 +15,7 @@
 #include <glm/vector_relational.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -132,15 +133,50 @@ osg::ref_ptr<const VolumeGeometry> giveCaps(LightVolumes& volumes, std::vector<S
     return caps;
 }
 
-/// True if the box itself may be seen: not if it is beyond one of the sides of what is seen.
-bool isInSight(const VolumeHull& hull) {
-    const auto isBeyond = [&hull](auto&& distance) { return std::all_of(hull.begin(), hull.begin() + 8, distance); };
-    return !(isBeyond([](const glm::dvec4& at) { return at.x < -at.w; }) ||
-             isBeyond([](const glm::dvec4& at) { return at.x > at.w; }) ||
-             isBeyond([](const glm::dvec4& at) { return at.y < -at.w; }) ||
-             isBeyond([](const glm::dvec4& at) { return at.y > at.w; }) ||
-             isBeyond([](const glm::dvec4& at) { return at.z < -at.w; }));
-}
+/// What a view may see of boxes and of the volumes behind them: not what is beyond one of its sides. Each is a linear function,
+/// which is most in one corner of a box, and from there grows or falls along the light. In doubt, all is seen.
+class Sight {
+public:
+    /// @param light  in the frame, see volumeHull().
+    Sight(const glm::dmat4& clipFromFrame, const glm::dvec4& light) : _light(light) {
+        const glm::dvec4 w = glm::row(clipFromFrame, 3);
+        for (int i = 0; i < 4; ++i) _sides[std::size_t(i)] = w + (i & 1 ? -1.0 : 1.0) * glm::row(clipFromFrame, i / 2);
+        _sides[near] = w + glm::row(clipFromFrame, 2);
+    }
+
+    /// @param end  see nearestEnd().
+    void lookAt(const glm::dvec3& low, const glm::dvec3& high, const glm::dvec4& end) {
+        const glm::dvec4 middle((low + high) / 2.0, 1.0);
+        const glm::dvec3 half = (high - low) / 2.0;
+        const auto reach = [&half](const glm::dvec4& row) { return glm::dot(glm::abs(glm::dvec3(row)), half); };
+        const double length = longest(end, glm::dot(end, middle) + reach(end));
+        isBoxSeen = isVolumeSeen = true;
+        for (std::size_t i = 0; i < _sides.size(); ++i) {
+            const double at = glm::dot(_sides[i], middle), by = reach(_sides[i]),
+                         rounding = 1e-12 * (std::abs(at) + by), most = at + by + rounding;
+            if (i == near) isCut = at - by <= rounding;
+            isBoxSeen = isBoxSeen && most >= 0.0;
+            const double growth = _light.w * most - glm::dot(_sides[i], _light);
+            if (i != near)
+                isVolumeSeen = isVolumeSeen && (most >= 0.0 || (growth > 0.0 && most + length * growth >= 0.0));
+        }
+    }
+
+    bool isBoxSeen = false, isVolumeSeen = false; ///< they may be.
+    bool isCut = false;                           ///< some of the box is before the near plane.
+
+private:
+    static constexpr std::size_t near = 4;
+
+    /// How far volumes go on that end at a plane. @param most  distance from it.
+    double longest(const glm::dvec4& end, double most) const {
+        const double steepness = glm::dot(end, _light) - _light.w * most; // where it is least
+        return steepness > 0.0 ? std::max(0.0, most / steepness) : never;
+    }
+
+    const glm::dvec4 _light;
+    std::array<glm::dvec4, 5> _sides; ///< half-spaces: left, right, below, above, near.
+};
 
 /// True if a part is, or may be, of a caster that is not drawn: of the joined ones only boxes tell.
 bool isUnseen(const LightVolumes& volumes, const SilhouetteMesh::Part& part, const UnseenCasters& unseen) {
@@ -162,21 +198,26 @@ void lookAt(LightVolumes& volumes, std::size_t number, const glm::dmat4& clipFro
     const glm::dmat4 clipFromMesh = clipFromScene * volumes.caster().sceneFromMesh;
     if (mesh.parts.empty()) return;
     const SightStart start(clipFromMesh, glm::dvec3(mesh.low), glm::dvec3(mesh.high));
+    Sight sight(clipFromMesh, volumes.volumes().light);
     const std::size_t before = all.parts.size();
     for (unsigned i = 0; i < mesh.parts.size(); ++i) {
         const ShadowVolumes::Part& volume = volumes.volumes().parts[i];
-        const VolumeHull hull = volumeHull(glm::dvec3(mesh.parts[i].low), glm::dvec3(mesh.parts[i].high), volume.end,
-                                           volumes.volumes().light, clipFromMesh);
-        const auto bounds = screenBounds(hull);
+        const glm::dvec3 low(mesh.parts[i].low), high(mesh.parts[i].high);
+        sight.lookAt(low, high, volume.end);
+        if (!sight.isVolumeSeen) continue;
+        const bool isKnown =
+            !all.parts.empty() && all.bounds.low == wholeScreen.low && all.bounds.high == wholeScreen.high;
+        const auto bounds =
+            isKnown ? wholeScreen
+                    : screenBounds(volumeHull(low, high, volume.end, volumes.volumes().light, clipFromMesh));
         if (!bounds) continue;
-        const bool cut = std::any_of(hull.begin(), hull.begin() + 8, [](const auto& at) { return at.z <= -at.w; });
-        const bool shows = isInSight(hull) && (!volumes.caster().hides(mesh.parts[i], start.eye) ||
+        const bool shows = sight.isBoxSeen && (!volumes.caster().hides(mesh.parts[i], start.eye) ||
                                                isUnseen(volumes, mesh.parts[i], unseen));
         const std::optional<int> holding =
-            shows ? std::nullopt : volumesHolding(start, mesh, volumes.volumes(), i, cut);
+            shows ? std::nullopt : volumesHolding(start, mesh, volumes.volumes(), i, sight.isCut);
         if (holding == 0 && volume.count == 0) continue;
         all.bounds = all.parts.empty() ? *bounds : united(all.bounds, *bounds);
-        const bool showsBack = mayShowBack(start, mesh, volumes.volumes(), i, cut);
+        const bool showsBack = mayShowBack(start, mesh, volumes.volumes(), i, sight.isCut);
         all.parts.push_back({all.meshes.size(), i, holding, showsBack, {}});
     }
     if (all.parts.size() == before) return;
@@ -236,7 +277,7 @@ UnseenCasters unseenCasters(const CasterLayers& casters, const ViewFrame& view, 
     for (const auto& layer : {casters.still, casters.moving})
         for (const auto& piece : layer->pieces) {
             if (piece->hiding == Hiding::Neither) continue;
-            if (!groupFromLocal || piece->groupFromLocal != *groupFromLocal)
+            if (!groupFromLocal || !hasSameBits(piece->groupFromLocal, *groupFromLocal))
                 eyeFromLocal = piece->groupFromLocal * view.eyeFromGroup;
             groupFromLocal = &piece->groupFromLocal;
             if (drawn.hasAt(*piece->drawable, eyeFromLocal, 1e-14 * piece->groupFromLocal.getTrans().length()))
