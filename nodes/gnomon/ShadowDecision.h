@@ -9,8 +9,7 @@ namespace gnomon {
 
 /// A way to draw a shadow, as an AutoShadowTechnique has judged it for one light in one view.
 struct ShadowCandidate {
-    /// Specification string that gives it, without composite. "none": no shadow at all. A mixed candidate has "volume+",
-    /// and the specification of its map.
+    /// Specification string that gives it, without composite. "none": no shadow at all.
     std::string spec;
     double error = 0.0; ///< Predicted error of the shadow's edge: 95th percentile, pixels.
     /// Counted work as a time that it adds to a frame, milliseconds, as the scene moves now. It tells candidates apart: on another
@@ -20,8 +19,6 @@ struct ShadowCandidate {
     double flying = 0.0;  ///< The same of a frame in which the view moves alone, over many frames.
     double moving = 0.0;  ///< The same of a frame in which the light or a caster moves.
     std::string obstacle; ///< Why it cannot be used here. Empty if it can.
-    /// Simple casters are drawn by volume, the others by a map. No specification gives that.
-    bool mixed = false;
 };
 
 /// The choice of an AutoShadowTechnique for one light and one kind of receivers in one view, and its reason.

@@ -23,7 +23,7 @@ ShadowCandidate candidateOf(const ChartScene& scene, const std::string& text) {
     const std::vector<ShadowCandidate> all = viewer.staging().decisions().front().candidates;
     for (const int cascades : {spec.map.cascades, 1}) // where as many as the size asks for are one, that alone is there
         for (const ShadowCandidate& candidate : all) {
-            const ShadowSpec its = gnomon::parseShadowSpec(candidate.mixed ? "none" : candidate.spec);
+            const ShadowSpec its = gnomon::parseShadowSpec(candidate.spec);
             const bool sameMaps = its.map.size == spec.map.size && its.map.filter == spec.map.filter &&
                                   its.map.cascades == cascades && its.map.edges == spec.map.edges;
             if (candidate.obstacle.empty() && its.technique == spec.technique && sameMaps) return candidate;

@@ -99,30 +99,6 @@ TEST(CasterLayers, OfBodiesThatAreGoneLeaveNothingInPlanarsCache) {
     EXPECT_FALSE(mesh.valid());
 }
 
-/// As auto parts casters for volumes from those for a map.
-TEST(CasterLayers, OfAPartTakeABodysMeshWhereverItMoves) {
-    Row row(3);
-    row.root->addChild(scene::under(osg::Matrixd::translate(0.0, 30.0, 0.0), body()));
-    row.next();
-    std::vector<osg::ref_ptr<const Casters>> parts;
-    const gnomon::CasterMesh* mesh = nullptr;
-    for (std::uint64_t step = 1; step < 5; ++step) {
-        row.move(3, {double(step), 30.0, 0.0});
-        row.next();
-        const osg::ref_ptr<const Casters> part =
-            new Casters({row.kept.back()->list.front(), row.kept.back()->list.back()}, step);
-        const CasterLayers& layers = part->layersAfter(parts.empty() ? *row.kept.back() : *parts.back());
-        for (const auto& layer : {layers.still, layers.moving})
-            for (const gnomon::PlacedMesh& placed : layer->meshes) {
-                if (placed.mesh->triangles->size() < 900) continue;
-                if (!mesh) mesh = placed.mesh;
-                EXPECT_EQ(placed.mesh, mesh) << step;
-            }
-        parts.push_back(part);
-    }
-    EXPECT_TRUE(mesh);
-}
-
 TEST(CasterLayers, WhatMovesIsTakenFromThoseThatStandOnce) {
     for (const unsigned which : {0u, 2u, 4u}) {
         Row row(5);
@@ -196,7 +172,8 @@ TEST(CasterLayers, ThatAreTheSameInAnotherOrderStandStill) {
     row.next();
     const gnomon::CasterList& list = row.kept.back()->list;
     const osg::ref_ptr<const Casters> turned = new Casters({list.rbegin(), list.rend()}, 1);
-    const CasterLayers& now = turned->layersAfter(*row.kept.back());
+    gnomon::KnownCasters known;
+    const CasterLayers now(*turned, &row.kept.back()->layers(), known);
     EXPECT_EQ(now.moving->triangles, 0u);
     EXPECT_EQ(now.still->triangles, 5u);
 }

@@ -325,8 +325,6 @@ std::vector<ShadowCandidate> othersOf(const ShadowDecision& decision) {
 
 /// A line of C++ that adds a candidate's technique to a group.
 std::string cppFor(const ShadowCandidate& candidate) {
-    if (candidate.mixed)
-        return "group->addChild(new gnomon::AutoShadowTechnique); // it alone gives each technique its casters";
     const ShadowSpec parsed = parseShadowSpec(candidate.spec);
     if (parsed.technique == "map") return cppFor(parsed.map);
     if (parsed.technique == "hull")

@@ -61,8 +61,6 @@ std::string AutoCandidate::spec() const {
         return "hull";
     case Kind::Map:
         return specOf(map);
-    case Kind::Mixed:
-        return "volume+" + specOf(map);
     case Kind::Volume:
         return "volume";
     case Kind::Traced:
@@ -74,24 +72,18 @@ std::string AutoCandidate::spec() const {
 
 bool AutoCandidate::isSame(const AutoCandidate& other) const {
     if (kind != other.kind) return false;
-    return !hasMap() || (map.size == other.map.size && map.filter == other.map.filter &&
-                         map.cascades == other.map.cascades && map.edges == other.map.edges);
+    return kind != Kind::Map || (map.size == other.map.size && map.filter == other.map.filter &&
+                                 map.cascades == other.map.cascades && map.edges == other.map.edges);
 }
 
 double AutoCandidate::time(const CostRates& rates, const AutoMotion& motion) const {
     const double drawn = timeOf(still, rates), changed = timeOf(change, rates);
-    return drawn + (motion.scene + (hasMap() ? refits * motion.view : 0.0)) * changed;
+    return drawn + (motion.scene + (kind == Kind::Map ? refits * motion.view : 0.0)) * changed;
 }
 
 ShadowCandidate AutoCandidate::judged(const CostRates& rates, const AutoMotion& motion) const {
-    return {spec(),
-            error,
-            time(rates, motion),
-            time(rates, {}),
-            time(rates, {0.0, 1.0}),
-            time(rates, {1.0, 0.0}),
-            obstacle,
-            kind == Kind::Mixed};
+    return {spec(),  error, time(rates, motion), time(rates, {}), time(rates, {0.0, 1.0}), time(rates, {1.0, 0.0}),
+            obstacle};
 }
 
 osg::ref_ptr<const ShadowTechnique> InnerTechniques::of(const AutoCandidate& candidate, const Selection& receiver,

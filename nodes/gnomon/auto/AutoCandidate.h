@@ -21,8 +21,7 @@ struct AutoMotion {
 
 /// A way to draw a shadow, with what it is expected to come to.
 struct AutoCandidate {
-    /// Mixed: simple casters by volume, the others by map, see CasterSplit.
-    enum class Kind { Nothing, Terrain, Map, Volume, Traced, Mixed };
+    enum class Kind { Nothing, Terrain, Map, Volume, Traced };
 
     Kind kind = Kind::Nothing;
     ShadowMapOptions map = {};
@@ -32,9 +31,7 @@ struct AutoCandidate {
     std::string why = {};      ///< the facts that it suits, in a few words.
     std::string obstacle = {}; ///< why it cannot be used.
 
-    /// True if it has a map, and with it ShadowMapOptions.
-    bool hasMap() const { return kind == Kind::Map || kind == Kind::Mixed; }
-    /// Specification string without composite and receiver. "volume+", and that of the map, where both are drawn.
+    /// Specification string without composite and receiver.
     std::string spec() const;
     /// True if it is drawn alike.
     bool isSame(const AutoCandidate& other) const;

@@ -3,7 +3,6 @@
 #include <gnomon/auto/AutoChooser.h>
 #include <gnomon/base/Fingerprint.h>
 #include <gnomon/base/NumberText.h>
-#include <gnomon/compositor/DrawnLeaves.h>
 
 #include <OpenThreads/ScopedLock>
 
@@ -72,16 +71,6 @@ std::string describe(ReceiverKind kind) {
     return kind == ReceiverKind::Late ? "drawn late" : "with a depth range or polygon offset";
 }
 
-/// Stands for the drawables that can receive, and where they are in the view.
-std::uint64_t fingerprintOf(const std::vector<const osgUtil::RenderLeaf*>& leaves) {
-    Fingerprint value;
-    for (const osgUtil::RenderLeaf* leaf : leaves) {
-        value.mix(static_cast<const void*>(leaf->_drawable.get()));
-        value.mix(modelviewOf(*leaf));
-    }
-    return value.value();
-}
-
 bool isMoving(const AutoMotion& motion) { return motion.scene > 0.0 || motion.view > 0.0; }
 
 } // namespace
@@ -96,7 +85,7 @@ AutoChooser::Seen AutoChooser::seenIn(const ShadowInView& shadow, const Selectio
     motion.mix(shadow.light.cutoff);
     sight.mix(frame.eyeFromGroup);
     sight.mix(frame.projection);
-    sight.mix(fingerprintOf(frame.seen));
+    sight.mix(frame.seenValue);
     for (const double number :
          {frame.pixels.x(), frame.pixels.y(), double(frame.group->getComposite()),
           double(frame.options.reservedStencilBits), double(frame.lights), double(frame.group->getDark()),
@@ -174,24 +163,10 @@ AutoChooser::Drawn AutoChooser::choose(const ShadowInView& shadow, const Selecti
     TimeKeeper* keeper = options.time > 0.0 ? &keeperOf(shadow.view.key.stage, options) : nullptr;
     const Seen now = seenIn(shadow, receiver, keeper ? keeper->error() : usualError(options));
     if (isDue(choice, now, shadow, receiver) || isOld(choice, now)) decide(choice, now, shadow, receiver);
-    if (choice.candidate.kind != AutoCandidate::Kind::Mixed) _known.splits.forgetOthersThan(shadow.casters);
-    Drawn drawn{sharesOf(choice.candidate, shadow, receiver), {}};
+    Drawn drawn{_inner.of(choice.candidate, receiver, _choices.round()), {}};
     for (const std::string& cause : {choice.cause, keeper ? keeper->whyNot() : ""})
         if (!cause.empty()) drawn.causes.push_back(cause);
     return drawn;
-}
-
-std::vector<AutoChooser::Drawn::Share> AutoChooser::sharesOf(const AutoCandidate& candidate, const ShadowInView& shadow,
-                                                             const Selection& receiver) {
-    if (candidate.kind == AutoCandidate::Kind::Nothing) return {};
-    if (candidate.kind != AutoCandidate::Kind::Mixed)
-        return {{_inner.of(candidate, receiver, _choices.round()), &shadow.casters}};
-    const CasterSplit& split = _known.splits.of(shadow.casters);
-    AutoCandidate volume, map = candidate;
-    volume.kind = AutoCandidate::Kind::Volume;
-    map.kind = AutoCandidate::Kind::Map;
-    return {{_inner.of(volume, receiver, _choices.round()), split.simple(shadow.casters)},
-            {_inner.of(map, receiver, _choices.round()), split.dense(shadow.casters)}};
 }
 
 TimeKeeper& AutoChooser::keeperOf(const void* stage, const AutoShadowOptions& options) {

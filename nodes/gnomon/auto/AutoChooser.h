@@ -25,13 +25,8 @@ class AutoChooser {
 public:
     /// What draws one light's shadow in one view, in this frame.
     struct Drawn {
-        /// A technique, and what it draws.
-        struct Share {
-            osg::ref_ptr<const ShadowTechnique> technique;
-            osg::ref_ptr<const Casters> casters;
-        };
-        std::vector<Share> shares;       ///< empty: no shadow is drawn.
-        std::vector<std::string> causes; ///< for ShadowTechnique::report(): the budget cannot be kept.
+        osg::ref_ptr<const ShadowTechnique> technique; ///< null: no shadow is drawn.
+        std::vector<std::string> causes;               ///< for ShadowTechnique::report(): the budget cannot be kept.
     };
     Drawn choose(const ShadowInView& shadow, const Selection& receiver, const AutoShadowOptions& options);
 
@@ -77,8 +72,6 @@ private:
     };
     Seen seenIn(const ShadowInView& shadow, const Selection& receiver, double error) const;
     TimeKeeper& keeperOf(const void* stage, const AutoShadowOptions& options);
-    std::vector<Drawn::Share> sharesOf(const AutoCandidate& candidate, const ShadowInView& shadow,
-                                       const Selection& receiver);
     bool isDue(Choice& choice, const Seen& now, const ShadowInView& shadow, const Selection& receiver);
     bool isOld(const Choice& choice, const Seen& now) const;
     void decide(Choice& choice, const Seen& now, const ShadowInView& shadow, const Selection& receiver);

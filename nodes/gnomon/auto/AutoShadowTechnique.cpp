@@ -65,12 +65,10 @@ std::vector<osg::ref_ptr<Mark>> AutoShadowTechnique::prepare(const ViewFrame& vi
     }
     const AutoChooser::Drawn drawn = _chooser->choose({view, light, casters, *usable}, getReceiver(), _options);
     for (const std::string& cause : drawn.causes) report(view.frameNumber, cause);
-    std::vector<osg::ref_ptr<Mark>> marks;
-    for (const auto& [technique, part] : drawn.shares) {
-        technique->beginFrame(view.frameNumber, view.frameTime, view.key.stage);
-        for (const osg::ref_ptr<Mark>& mark : technique->prepare(view, light, *part)) marks.push_back(mark);
-        for (const std::string& cause : causesOf(*technique)) report(view.frameNumber, cause);
-    }
+    if (!drawn.technique) return {};
+    drawn.technique->beginFrame(view.frameNumber, view.frameTime, view.key.stage);
+    std::vector<osg::ref_ptr<Mark>> marks = drawn.technique->prepare(view, light, casters);
+    for (const std::string& cause : causesOf(*drawn.technique)) report(view.frameNumber, cause);
     return marks;
 }
 

@@ -3,7 +3,6 @@
 #include <gnomon/OptionalParts.h>
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/auto/CandidateFacts.h>
-#include <gnomon/base/Fingerprint.h>
 #include <gnomon/casters/Casters.h>
 #include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/group/LitCauses.h>
@@ -76,14 +75,9 @@ ViewFrame without(const Casters& casters, const ShadowInView& shadow) {
     ViewFrame result = shadow.view;
     const auto casts = [&](const osgUtil::RenderLeaf* leaf) { return casting.count(leaf->_drawable.get()) > 0; };
     result.seen.erase(std::remove_if(result.seen.begin(), result.seen.end(), casts), result.seen.end());
+    result.seenValue = 0;
     return result;
 }
-
-constexpr std::size_t mostSplits = 4; // as CasterTable has choices
-constexpr unsigned keptCalls = 8;     // of retired casters: other views may be about to follow
-constexpr double large = 0.5;         // of the radius of all: so large a part is not told from the whole
-
-bool isForMap(const Caster& piece, double radius) { return CasterSplit::isDense(piece, radius) || piece.cutOut; }
 
 bool isMoreThanWhite(const osg::Material& material) {
     for (const osg::Material::Face face : {osg::Material::FRONT, osg::Material::BACK})
@@ -189,62 +183,6 @@ EdgeWidths MapEdges::in(const MapForecast& forecast) const {
     for (const Contact& contact : _contacts)
         inMapOf(contact.place, [&](const glm::dmat4& map) { widths.addContact(contact, _cell, map); });
     return widths;
-}
-
-bool CasterSplit::isDense(const Caster& piece, double radius) {
-    return piece.triangles >= fewestOfABody && piece.bounds.radius() < large * radius;
-}
-
-void CasterSplit::follow(const Casters& all) {
-    if (isOf(all)) return;
-    _all = &all;
-    CasterList simple, dense;
-    for (const auto& piece : all.list) {
-        if (!piece->bounds.valid()) continue;
-        (isForMap(*piece, all.bounds.radius()) ? dense : simple).push_back(piece);
-    }
-    set(_simple, std::move(simple), {}, all.choice);
-    set(_dense, std::move(dense), all.selfDrawings, all.choice);
-}
-
-/// What is the same stays, and with it all that was made of it.
-void CasterSplit::set(Part& part, CasterList pieces, Casters::SelfDrawings selfDrawings, std::uint64_t choice) {
-    if (pieces.empty() && selfDrawings.empty()) {
-        part.now.set(nullptr);
-        part.former = nullptr;
-        return;
-    }
-    const osg::ref_ptr<const Casters> before = part.now.get();
-    if (before && before->list == pieces && before->selfDrawings == selfDrawings) return;
-    Fingerprint fingerprint;
-    for (const auto& piece : pieces) fingerprint.mix(piece->fingerprint);
-    for (const auto& drawing : selfDrawings) fingerprint.mix(static_cast<const void*>(drawing.get()));
-    if (before && before->hasLayers()) part.former = before;
-    part.now.set(new Casters(std::move(pieces), fingerprint.value(), choice, std::move(selfDrawings)));
-}
-
-osg::ref_ptr<const Casters> CasterSplit::partOf(const Casters& all, const Part& part) {
-    part.now.get()->layersAfter(part.former ? *part.former : all);
-    part.former = nullptr;
-    return part.now.get();
-}
-
-void CasterSplits::forgetOthersThan(const Casters& all) {
-    _splits.dropIf([&](const Entry& entry) { return entry.choice == all.choice && !entry.split->isOf(all); });
-}
-
-CasterSplit& CasterSplits::of(const Casters& all) {
-    Entry* known = _splits.find([&](const Entry& entry) { return entry.choice == all.choice; });
-    if (!known) {
-        _splits.dropOldestBeyond(mostSplits - 1);
-        known = &_splits.add({all.choice, std::make_unique<CasterSplit>()});
-    }
-    known->lastCall = ++_calls;
-    CasterSplit& split = *known->split;
-    split.follow(all);
-    _splits.dropIf(
-        [this](const Entry& entry) { return entry.split->isRetired() && _calls - entry.lastCall > keptCalls; });
-    return split;
 }
 
 } // namespace gnomon

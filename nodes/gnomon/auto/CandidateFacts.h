@@ -2,7 +2,6 @@
 #pragma once
 #include <gnomon/ShadowLight.h>
 #include <gnomon/ViewFrame.h>
-#include <gnomon/base/RecentCache.h>
 #include <gnomon/casters/Casters.h>
 #include <gnomon/map/LightShadowMaps.h>
 #include <gnomon/map/MapCasters.h>
@@ -10,9 +9,7 @@
 #include <gnomon/terrain/GroundRevision.h>
 
 #include <glm/vec4.hpp>
-#include <osg/observer_ptr>
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -72,63 +69,6 @@ private:
     std::vector<SeenPlace> _places;
     std::vector<Contact> _contacts;
     double _cell = 0.0; ///< pixels that a contact stands for.
-};
-
-/// A group's casters in two parts: simple ones, for volumes, and those that a map draws better. These are dense, are cut out
-/// by an alpha test, or draw themselves.
-///
-/// What is dense and large, as a ground is, counts as simple: a map that is fitted to it is fitted to all.
-///
-/// Cost
-/// - Where the casters have changed: a look at each piece; a part that has changed is joined anew.
-/// Threads
-/// - One at a time.
-class CasterSplit {
-public:
-    /// True of a mesh of many triangles that is not as large as a ground is. @param radius  of the bounds of all casters.
-    static bool isDense(const Caster& piece, double radius);
-    /// Divides casters, unless that was done.
-    void follow(const Casters& all);
-    /// True if no view will ask for what was divided last.
-    bool isRetired() const { return !_all.valid() || _all->isRetired(); }
-    /// True if it was made of these.
-    bool isOf(const Casters& all) const { return _all.get() == &all; }
-    /// True if there is something in either part.
-    bool isDivided() const { return _simple.now.get() && _dense.now.get(); }
-
-    /// The parts as a technique takes them. Only where isDivided().
-    /// @param all  of which they are a part.
-    osg::ref_ptr<const Casters> simple(const Casters& all) const { return partOf(all, _simple); }
-    osg::ref_ptr<const Casters> dense(const Casters& all) const { return partOf(all, _dense); }
-
-private:
-    struct Part {
-        CurrentCasters now;
-        mutable osg::ref_ptr<const Casters> former; ///< retired ones, whose layers the next are made from.
-    };
-    static osg::ref_ptr<const Casters> partOf(const Casters& all, const Part& part);
-    static void set(Part& part, CasterList pieces, Casters::SelfDrawings selfDrawings, std::uint64_t choice);
-
-    osg::observer_ptr<const Casters> _all;
-    Part _simple, _dense;
-};
-
-/// Those of the choices of levels of detail that views have lately.
-class CasterSplits {
-public:
-    /// As CasterSplit::follow() leaves it. It holds until the next call.
-    CasterSplit& of(const Casters& all);
-    /// Lets go what was made of casters that were there before these.
-    void forgetOthersThan(const Casters& all);
-
-private:
-    struct Entry {
-        std::uint64_t choice;
-        std::unique_ptr<CasterSplit> split;
-        unsigned lastCall = 0;
-    };
-    RecentCache<Entry> _splits;
-    unsigned _calls = 0;
 };
 
 } // namespace gnomon

@@ -6,7 +6,6 @@
 #include <gnomon/auto/CandidateList.h>
 #include <gnomon/base/NumberText.h>
 #include <gnomon/compositor/DrawnLeaves.h>
-#include <gnomon/compositor/StencilMarks.h>
 #include <gnomon/gl/TriangleClusters.h>
 #include <gnomon/mapfit/MapFit.h>
 #include <gnomon/volume/VolumeForecast.h>
@@ -14,7 +13,6 @@
 #include <osg/Geometry>
 
 #include <algorithm>
-#include <bitset>
 #include <optional>
 
 namespace gnomon {
@@ -51,7 +49,9 @@ constexpr int sizes[] = {512, 1024, 2048, 4096};
 
 /// Why a candidate would leave a caster out; empty if it would not.
 std::string whyOnlyMaps(const AutoCandidate& candidate, const Casters& casters) {
-    return candidate.hasMap() || casters.selfDrawings.empty() ? "" : "a caster draws itself, and only maps can let it";
+    return candidate.kind == Kind::Map || casters.selfDrawings.empty()
+               ? ""
+               : "a caster draws itself, and only maps can let it";
 }
 
 std::string whyNotTraced(const Casters& casters) {
@@ -66,11 +66,13 @@ std::string whyOnlyRays(const ShadowInView& shadow) {
     return whyNotTraced(shadow.casters).empty() && shadow.casters.selfDrawings.empty() ? whyCoarse(shadow) : "";
 }
 
-/// Of meshes whose parts are no boxes: each triangle may be on an outline.
+/// Of meshes whose parts are no boxes, but for grounds: each triangle may be on an outline.
 double denseTriangles(const Casters& casters) {
+    constexpr double large = 0.5; // of the radius of all
     double sum = 0.0;
     for (const auto& piece : casters.list)
-        if (CasterSplit::isDense(*piece, casters.bounds.radius())) sum += double(piece->triangles);
+        if (piece->triangles >= fewestOfABody && piece->bounds.radius() < large * casters.bounds.radius())
+            sum += double(piece->triangles);
     return sum;
 }
 
@@ -135,7 +137,6 @@ public:
         addTerrain();
         addMaps(edges);
         addVolume();
-        addMixed(edges);
         addTraced();
         const std::string onlyRays = whyOnlyRays(_shadow);
         for (AutoCandidate& candidate : _result.all) {
@@ -203,15 +204,13 @@ private:
 
     /// One map, and as many as the size asks for, where those are more.
     void addMaps(const MapEdges& edges) {
-        const double pieces = double(_shadow.casters.list.size());
         for (const int size : sizes) {
             for (const MapQuality& quality : qualities)
-                _result.all.push_back(mapOf({_one, *_widths, *_widths, _pixels, _casters, pieces}, 1, size, quality));
+                _result.all.push_back(mapOf({_one, *_widths}, 1, size, quality));
             const MapForecast several = _shadow.towards.w == 0.0 ? forecast(*_boxes, 0, size) : _one;
             if (several.maps == _one.maps) continue;
             const EdgeWidths each = edges.in(several);
-            for (const MapQuality& quality : qualities)
-                _result.all.push_back(mapOf({several, each, each, _pixels, _casters, pieces}, 0, size, quality));
+            for (const MapQuality& quality : qualities) _result.all.push_back(mapOf({several, each}, 0, size, quality));
         }
     }
 
@@ -219,10 +218,6 @@ private:
     struct Mapped {
         const MapForecast& forecast;
         const EdgeWidths& edges;
-        const EdgeWidths& contacts; ///< of all casters: what is none of these is but a box to their edges.
-        double pixels;              ///< where its shadow can be.
-        double casters;             ///< triangles.
-        double pieces;
     };
     AutoCandidate mapOf(const Mapped& mapped, int cascades, int size, const MapQuality& quality) const {
         const MapForecast& forecast = mapped.forecast;
@@ -238,16 +233,16 @@ private:
         map.error = edges.empty() ? mapError(quality.edge, forecast.texels / texels)
                                   : edges.usual(usualShare,
                                                 [&](const auto& edge) { return mapError(edge, quality.edge, texels); });
-        map.error = std::max(map.error, mapped.contacts.leak(texels));
+        map.error = std::max(map.error, edges.leak(texels));
         map.why = "its texels are as large as " + roundedText(forecast.texels / texels) + " px";
         const double passes = quality.edges == Map::SMOOTH && !blends() ? 2.0 : 1.0;
         map.still = _compose;
-        map.still.calls += 3.0 * passes + mapCallsAPiece * mapped.pieces;
-        map.still.pixels = passes * mapped.pixels;
-        map.still.taps = passes * mapped.pixels * quality.edge.compared;
+        map.still.calls += 3.0 * passes + mapCallsAPiece * double(_shadow.casters.list.size());
+        map.still.pixels = passes * _pixels;
+        map.still.taps = passes * _pixels * quality.edge.compared;
         map.change.calls = callsAMap * forecast.maps;
         map.change.texels = double(forecast.maps) * texels * texels;
-        map.change.triangles = double(forecast.maps) * mapped.casters;
+        map.change.triangles = double(forecast.maps) * _casters;
         return map;
     }
 
@@ -257,61 +252,13 @@ private:
         volume.error = _sampled;
         volume.obstacle = whyCutOut(_shadow.casters);
         volume.still = _compose;
-        _volumes = forecastVolumes(_shadow.view, _layers, _shadow.towards, _known.open);
-        addVolumeOf(_volumes, _casters, volume);
-        volume.why = "its volumes have some " + roundedText(_volumes.sides) + " sides";
+        const VolumeForecast forecast = forecastVolumes(_shadow.view, _layers, _shadow.towards, _known.open);
+        volume.still.calls += 3.0;
+        volume.still.triangles += 2.0 * forecast.sides + forecast.caps;
+        volume.still.texels += forecast.pixels + _pixels; // counts become marks
+        volume.change.objects += forecast.sides + facedAnObject * _casters;
+        volume.why = "its volumes have some " + roundedText(forecast.sides) + " sides";
         _result.all.push_back(volume);
-    }
-
-    void addVolumeOf(const VolumeForecast& forecast, double triangles, AutoCandidate& to) const {
-        to.still.calls += 3.0;
-        to.still.triangles += 2.0 * forecast.sides + forecast.caps;
-        to.still.texels += forecast.pixels + _pixels; // counts become marks
-        to.change.objects += forecast.sides + facedAnObject * triangles;
-    }
-
-    /// A map that is fitted to some of the casters has smaller texels; and it need not draw the others.
-    void addMixed(const MapEdges& ofAll) {
-        const CasterSplit& split = _known.splits.of(_shadow.casters);
-        if (!split.isDivided()) return;
-        const osg::ref_ptr<const Casters> dense = split.dense(_shadow.casters);
-        const CasterLayers& layers = dense->layers();
-        const double simple = _casters - double(layers.triangles());
-        const osg::ref_ptr<const MapCasters> boxes = partsOf(*dense);
-        const MapForecast one = forecast(*boxes, 1, sizes[0]);
-        if (one.maps == 0) return;
-        const EdgeWidths edges = MapEdges(_shadow, *boxes, one).in(one), all = ofAll.in(one);
-        const Mapped mapped{one,
-                            edges,
-                            all,
-                            pixelsOf(_shadow.view, *one.bounds),
-                            double(layers.triangles()),
-                            double(dense->list.size())};
-        AutoCandidate volume;
-        const VolumeForecast others =
-            forecastVolumes(_shadow.view, layers, _shadow.towards, _known.open, _volumes.counted);
-        addVolumeOf(_volumes - others, simple, volume);
-        volume.still.calls += 3.0; // marks are handed on
-        for (const int size : sizes)
-            for (const MapQuality& quality : qualities) {
-                AutoCandidate mixed = mapOf(mapped, 1, size, quality);
-                mixed.kind = Kind::Mixed;
-                mixed.why = "a map holds the dense and the cut-out casters alone";
-                mixed.error = std::max(mixed.error, _sampled);
-                mixed.obstacle = whyNotTogether(quality.edges);
-                mixed.still += volume.still;
-                mixed.change += volume.change;
-                _result.all.push_back(mixed);
-            }
-    }
-
-    /// The two need a stencil bit each where edges are smooth, and another to hand marks on; the volumes count in others.
-    std::string whyNotTogether(Map::Edges edges) const {
-        const bool fades = edges == Map::SMOOTH && !blends();
-        if (fades && _shadow.view.lights > 1) return "stencil bits are too few for smooth edges of several lights";
-        const std::size_t free = 8 - std::bitset<8>(_shadow.view.options.reservedStencilBits).count();
-        const std::size_t needed = edges == Map::SMOOTH ? 6 : 2 + std::min(_shadow.view.lights, mostRelitLights);
-        return free < needed ? "too many stencil bits are reserved" : "";
     }
 
     void addTraced() {
@@ -333,7 +280,6 @@ private:
     const osg::ref_ptr<const MapCasters> _boxes;
     MapForecast _one;
     double _pixels = 0.0, _casters = 0.0;
-    VolumeForecast _volumes;           ///< of all casters.
     std::optional<EdgeWidths> _widths; ///< of edges in `_one`.
     double _sampled = sampledEdge;     ///< error of one ray a pixel.
     ShadowWork _compose;
@@ -354,8 +300,6 @@ std::string whyWrong(const AutoCandidate& candidate, const ShadowInView& shadow,
     if (needsDepths(candidate.kind))
         if (const std::string coarse = whyOnlyRays(shadow); !coarse.empty()) return coarse;
     if (candidate.kind == Kind::Terrain) return known.terrain.of(shadow, receiver).obstacle;
-    if (candidate.kind == Kind::Mixed && !known.splits.of(shadow.casters).isDivided())
-        return "all casters are of one kind";
     if (candidate.kind == Kind::Volume || candidate.kind == Kind::Traced) return whyCutOut(shadow.casters);
     return {};
 }

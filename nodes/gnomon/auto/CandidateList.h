@@ -12,7 +12,6 @@ namespace gnomon {
 /// What is known of a group's casters and receivers, from earlier decisions.
 struct AutoKnowledge {
     TerrainKnowledge terrain;
-    CasterSplits splits;
     OpenCasters open;
 };
 

@@ -18,11 +18,10 @@ const void* keyOf(const CasterView* view) { return view ? view->key : nullptr; }
 } // namespace
 
 /// Casters of no group, or of one that is gone, have a table for themselves.
-const CasterLayers& Casters::madeLayers(const osg::observer_ptr<CasterTable>& of, const Casters* before) const {
+const CasterLayers& Casters::madeLayers() const {
     osg::ref_ptr<CasterTable> table;
-    if (!of.lock(table)) table = new CasterTable;
-    if (before) before->layers();
-    table->makeLayers(*this, before);
+    if (!_table.lock(table)) table = new CasterTable;
+    table->makeLayers(*this);
     return *_layers;
 }
 
@@ -51,7 +50,7 @@ osg::ref_ptr<const Casters> CasterTable::casters(osg::Node& root, const Selectio
     Choice& entry = take(*now, view);
     if (entry.casters.get()) return entry.casters.get();
     entry.casters.set(now);
-    if (now->empty()) make(*now, nullptr); // nobody else might, and the former ones' layers are kept until then
+    if (now->empty()) make(*now); // nobody else might, and the former ones' layers are kept until then
     _known.pruneLevels();
     return now;
 }
@@ -83,15 +82,14 @@ CasterTable::Choice& CasterTable::take(const Casters& now, const CasterView* vie
     return *known;
 }
 
-void CasterTable::makeLayers(const Casters& casters, const Casters* before) {
+void CasterTable::makeLayers(const Casters& casters) {
     Lock lock(_mutex);
-    if (!casters.hasLayers()) make(casters, before);
+    if (!casters.hasLayers()) make(casters);
 }
 
-void CasterTable::make(const Casters& casters, const Casters* before) {
+void CasterTable::make(const Casters& casters) {
     Choice* entry = _choices.find([&](const Choice& known) { return known.casters.get() == &casters; });
-    osg::ref_ptr<const Casters> from(before);
-    if (!from) from = layersKnownTo(entry ? entry->view : nullptr);
+    osg::ref_ptr<const Casters> from = layersKnownTo(entry ? entry->view : nullptr);
     casters._layers = std::make_unique<const CasterLayers>(casters, from ? &from->layers() : nullptr, _known);
     casters._hasLayers = true;
     if (entry) entry->former = nullptr;

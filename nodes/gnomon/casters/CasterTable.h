@@ -22,9 +22,9 @@ public:
     /// The casters below a node. Reads the graph as a cull traversal does.
     /// @param view  whose levels are taken; null: the finest.
     osg::ref_ptr<const Casters> casters(osg::Node& root, const Selection& casters, const CasterView* view);
-    /// Makes the layers of casters that have none. Reads the graph as a cull traversal does.
-    /// @param before  has layers; null: those that the view had last, or any that are known.
-    void makeLayers(const Casters& casters, const Casters* before);
+    /// Makes the layers of casters that have none, from those that the view had last, or any that are known. Reads the graph as a
+    /// cull traversal does.
+    void makeLayers(const Casters& casters);
     /// What of the drawables casts. Default: all that is drawn, transparent or not.
     void setRule(const CastingRule& rule);
     /// How often there was something that was not known.
@@ -54,7 +54,7 @@ private:
         unsigned formerSince = 0;             ///< call.
     };
     Choice& take(const Casters& now, const CasterView* view);
-    void make(const Casters& casters, const Casters* before);
+    void make(const Casters& casters);
     osg::ref_ptr<const Casters> knownTo(const CasterView* view) const;
     osg::ref_ptr<const Casters> layersKnownTo(const void* view) const;
 

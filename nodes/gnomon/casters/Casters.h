@@ -127,12 +127,7 @@ public:
     bool empty() const { return !bounds.valid(); }
     /// As meshes, made by whoever asks first, from those of the group before. The first call reads the graph as a cull
     /// traversal does.
-    const CasterLayers& layers() const { return _hasLayers ? *_layers : madeLayers(_table, nullptr); }
-    /// The same, but made from those of others, for what is a part of a group's casters.
-    const CasterLayers& layersAfter(const Casters& before) const {
-        if (!_hasLayers) _table = before._table; // whose bodies they are then, and those of the next part
-        return _hasLayers ? *_layers : madeLayers(_table, &before);
-    }
+    const CasterLayers& layers() const { return _hasLayers ? *_layers : madeLayers(); }
     /// True if somebody has asked for them.
     bool hasLayers() const { return _hasLayers; }
 
@@ -174,7 +169,7 @@ protected:
 
 private:
     friend class CasterTable; ///< it makes the layers, under its lock.
-    const CasterLayers& madeLayers(const osg::observer_ptr<CasterTable>& table, const Casters* before) const;
+    const CasterLayers& madeLayers() const;
 
     mutable osg::observer_ptr<CasterTable> _table; ///< whose these are; null: none's.
     mutable std::unique_ptr<const CasterLayers> _layers;

@@ -255,11 +255,6 @@ VolumeForecast& VolumeForecast::operator+=(const VolumeForecast& more) {
     return *this;
 }
 
-VolumeForecast VolumeForecast::operator-(const VolumeForecast& some) const {
-    return {std::max(sides - some.sides, 0.0), std::max(caps - some.caps, 0.0), std::max(pixels - some.pixels, 0.0),
-            counted && some.counted};
-}
-
 VolumeForecast forecastVolumes(const ViewFrame& view, const CasterLayers& casters, const glm::dvec4& light,
                                OpenCasters& known, bool counts) {
     const SceneFrame scene(casters.origin);

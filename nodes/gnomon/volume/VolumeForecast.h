@@ -71,8 +71,6 @@ struct VolumeForecast {
     bool counted = true; ///< the edges of all open casters were looked at.
 
     VolumeForecast& operator+=(const VolumeForecast& more);
-    /// Without those of some casters.
-    VolumeForecast operator-(const VolumeForecast& some) const;
 };
 
 /// Of closed casters it is found from their bounds and numbers of triangles alone: no edge is looked at.
