@@ -231,7 +231,8 @@ const osg::Matrixd& matrixOf(const osg::RefMatrix* matrix) {
 }
 
 bool isSameLens(const osg::Matrixd& a, const osg::Matrixd& b) {
-    for (int row = 0; row < 4 && &a != &b; ++row)
+    if (&a == &b) return true;
+    for (int row = 0; row < 4; ++row)
         for (const int column : {0, 1, 3})
             if (a(row, column) != b(row, column)) return false;
     return true;
@@ -262,7 +263,7 @@ bool DrawablePlaces::isAt(const Place& known, const osg::Matrixd& place, double 
     return true;
 }
 
-/// Most that are missed are out of sight: a sort is for what is drawn in another order.
+/// Whether any place is of the drawable. What is missed is mostly out of sight, and this is cheaper than the sort.
 bool DrawablePlaces::isIn(const osg::Drawable& drawable) const {
     if (_drawables.empty()) {
         std::size_t size = 4;

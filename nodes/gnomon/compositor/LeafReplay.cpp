@@ -20,6 +20,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <typeinfo>
 
 namespace gnomon {
 namespace {
@@ -281,13 +282,28 @@ LeafReplay::~LeafReplay() {
     _state.haveAppliedMode(mirrorClipPlane, osg::StateAttribute::OFF);
 }
 
+namespace {
+
+/// True if it leaves OpenGL's state as it finds it, but for arrays and the current colour.
+bool keepsState(const osg::Drawable& drawable) {
+    return typeid(drawable) == typeid(osg::Geometry) && !drawable.getDrawCallback();
+}
+
+} // namespace
+
+/// Leaves that follow each other in one state, as most do, are drawn in a row.
 void LeafReplay::draw(const DrawnLeaf& entry, unsigned lost) {
     if (_state.getAbortRendering()) return;
-    apply(entry);
-    layOver();
-    const bool faded = lost && !_lights.canLose(lost);
-    darken(faded ? 0 : lost);
-    if (faded) return drawFaded(*entry.leaf);
+    const bool again = entry.bin == _bin && entry.leaf->_parent == _held && lost == _lost;
+    _held = nullptr;
+    apply(entry, again);
+    if (!again) {
+        layOver();
+        _cuts = mayCut();
+        const bool faded = lost && !_lights.canLose(lost);
+        darken(faded ? 0 : lost);
+        if (faded) return drawFaded(*entry.leaf);
+    }
     _lights.darken(lost);
     const bool tested = _overlay.hidingOnly && _state.getLastAppliedMode(GL_BLEND) &&
                         !_state.getLastAppliedMode(GL_COLOR_LOGIC_OP); // which takes the place of blending
@@ -295,33 +311,42 @@ void LeafReplay::draw(const DrawnLeaf& entry, unsigned lost) {
     drawGeometry(*entry.leaf);
     if (tested) forgetAlpha();
     _lights.restore();
+    if (tested || !keepsState(*entry.leaf->_drawable)) return;
+    _held = entry.leaf->_parent;
+    _lost = lost;
 }
 
 bool LeafReplay::canBeRelit(const DrawnLeaf& entry, unsigned lost) {
-    apply(entry);
+    _held = nullptr;
+    apply(entry, false);
     return _lights.canLose(lost);
 }
 
-/// All of the leaf's own state.
-void LeafReplay::apply(const DrawnLeaf& entry) {
+/// All of the leaf's own state. @param again  that of its state sets stands.
+void LeafReplay::apply(const DrawnLeaf& entry, bool again) {
     if (entry.bin != _bin) enter(entry.bin);
     const osgUtil::RenderLeaf& leaf = *entry.leaf;
-    osgUtil::StateGraph* graph = leaf._parent;
     _state.applyProjectionMatrix(leaf._projection.get());
     _state.applyModelViewMatrix(leaf._modelview.get());
-    osgUtil::StateGraph::moveStateGraph(_state, _previous, graph->_parent);
-    _previous = graph->_parent;
-    _state.apply(graph->getStateSet());
+    if (!again) {
+        osgUtil::StateGraph* graph = leaf._parent;
+        osgUtil::StateGraph::moveStateGraph(_state, _previous, graph->_parent);
+        _previous = graph->_parent;
+        _state.apply(graph->getStateSet());
+    }
     _materials.leadTo(leaf);
     if (_state.getUseModelViewAndProjectionUniforms()) _state.applyModelViewAndProjectionUniformsIfRequired();
 }
 
 /// Programs may move vertices to where no cluster's box is; a restarted strip's corners do not alternate from its start.
-bool LeafReplay::canDrawClusters(const osgUtil::RenderLeaf& leaf, const osg::Geometry& geometry) {
+bool LeafReplay::mayCut() const {
     constexpr GLenum vertexProgram = 0x8620, restart = 0x8F9D, restartFixedIndex = 0x8D69;
-    return _skipsUntouched && _filled(leaf) && !_state.getLastAppliedProgramObject() &&
-           !_state.getLastAppliedMode(vertexProgram) && !_state.getLastAppliedMode(restart) &&
-           !_state.getLastAppliedMode(restartFixedIndex) &&
+    return _skipsUntouched && !_state.getLastAppliedProgramObject() && !_state.getLastAppliedMode(vertexProgram) &&
+           !_state.getLastAppliedMode(restart) && !_state.getLastAppliedMode(restartFixedIndex);
+}
+
+bool LeafReplay::canDrawClusters(const osgUtil::RenderLeaf& leaf, const osg::Geometry& geometry) {
+    return _cuts && (_overlay.mark || TriangleClusters::isBig(geometry)) && _filled(leaf) &&
            !_state.useVertexArrayObject(geometry.getUseVertexArrayObject());
 }
 
@@ -440,7 +465,7 @@ void LeafReplay::keepAlpha() {
 
 void LeafReplay::setBlendColor(float grey) { _state.get<osg::GLExtensions>()->glBlendColor(grey, grey, grey, 1.0f); }
 
-/// Again for each leaf: its own state may have set the light's colours.
+/// Again for each run of leaves: their state may have set the light's colours.
 void LeafReplay::darken(unsigned lights) {
     const osg::Vec4 black(0, 0, 0, 1);
     for (int i = 0; i < maxLights; ++i) {

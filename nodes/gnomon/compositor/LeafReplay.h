@@ -111,7 +111,7 @@ public:
     const std::vector<const osgUtil::RenderLeaf*>& notRelit() const { return _notRelit; }
 
 private:
-    void apply(const DrawnLeaf& entry);
+    void apply(const DrawnLeaf& entry, bool again);
     void enter(osgUtil::RenderBin* bin);
     void layOver();
     void layAlphaOver();
@@ -121,6 +121,7 @@ private:
     void keepAlpha();
     void setBlendColor(float grey);
     void darken(unsigned lights);
+    bool mayCut() const;
     bool canDrawClusters(const osgUtil::RenderLeaf& leaf, const osg::Geometry& geometry);
     void drawGeometry(const osgUtil::RenderLeaf& leaf);
     void drawOnce(const osgUtil::RenderLeaf& leaf);
@@ -140,6 +141,10 @@ private:
     std::vector<const osgUtil::RenderLeaf*> _notRelit;
     osgUtil::RenderBin* _bin = nullptr;
     osgUtil::StateGraph* _previous = nullptr; ///< whose state sets are on the stack.
+    const osgUtil::StateGraph* _held =
+        nullptr;        ///< whose state stands in OpenGL, and what is laid over it; null: none's.
+    unsigned _lost = 0; ///< with that.
+    bool _cuts = false; ///< in that state a part of a geometry may be drawn.
 };
 
 /// Bits of the stencil buffer to be written: those of `write` become those of `reference`.

@@ -49,12 +49,6 @@ bool canBeCut(const osg::PrimitiveSet& primitives) {
 /// Smaller ones are drawn as fast as their parts are found.
 constexpr std::size_t mostCornersDrawnWhole = 8000;
 
-bool isBig(const osg::Geometry& geometry) {
-    std::size_t corners = 0;
-    for (const auto& primitives : geometry.getPrimitiveSetList()) corners += primitives->getNumIndices();
-    return corners > mostCornersDrawnWhole;
-}
-
 /// A geometry that draws just its arrays, where they say.
 bool isPlain(const osg::Geometry& geometry) {
     const auto& sets = geometry.getPrimitiveSetList();
@@ -180,6 +174,12 @@ private:
 };
 
 } // namespace
+
+bool TriangleClusters::isBig(const osg::Geometry& geometry) {
+    std::size_t corners = 0;
+    for (const auto& primitives : geometry.getPrimitiveSetList()) corners += primitives->getNumIndices();
+    return corners > mostCornersDrawnWhole;
+}
 
 osg::ref_ptr<const TriangleClusters> TriangleClusters::of(const osg::Drawable& drawable) {
     static Cache cache;

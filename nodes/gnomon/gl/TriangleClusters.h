@@ -29,6 +29,8 @@ public:
     /// not its vertices'. Made once a revision of its arrays and kept about as long as the drawable lives. Any thread.
     /// Not for what a program, primitive restart or a vertex array object draws: that the caller asks of the state.
     static osg::ref_ptr<const TriangleClusters> of(const osg::Drawable& drawable);
+    /// False where of() gives null because the geometry is small.
+    static bool isBig(const osg::Geometry& geometry);
 
     /// Those of triangles, quads and triangle strips, however small; not kept.
     /// @param geometry  plain: see of().
