@@ -13,6 +13,7 @@
 #include <osgUtil/RenderLeaf>
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
@@ -69,6 +70,9 @@ struct GNOMON_EXPORT ViewFrame {
     std::size_t lights = 1;                       ///< whose shadows the group wants in the view.
     std::map<int, double> strengths;              ///< of these, see GroupLights.
     std::vector<const osgUtil::RenderLeaf*> seen; ///< leaves that can receive: those, or all of the view.
+    /// Stands for `seen`: which drawables, with which bounds, where in eye space, and for movesReceivers. 0: not known, so that
+    /// techniques find anew what they see.
+    std::uint64_t seenValue = 0;
     bool movesReceivers = false; ///< Programs move some of `seen` out of their boxes, anywhere in the view.
     const ProgramCauses* drawn =
         nullptr; ///< Tells which casters the view draws, within prepare(); null if nobody knows.

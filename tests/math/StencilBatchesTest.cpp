@@ -57,6 +57,15 @@ TEST(StencilRounds, TakeAllInOneWhereCountersAreWideEnough) {
     EXPECT_TRUE(stencilBatches({}, 7).empty());
 }
 
+/// As of sheets in one plane under a sun in that plane.
+TEST(StencilRounds, OfTilesWithoutExtentAreAsOfOthers) {
+    const std::vector<PrismLayers> apart = {{{0, 0}, {0, 1}, 1, 1}, {{0, 2}, {0, 3}, 1, 1}},
+                                   points(3, {{1, 1}, {1, 1}, 1, 1});
+    EXPECT_EQ(stencilBatches(apart, 1).size(), 1u);
+    EXPECT_EQ(stencilBatches(points, 1).size(), 3u);
+    EXPECT_EQ(stencilBatches(points, 3).size(), 1u);
+}
+
 TEST(StencilRounds, CountNoPointTooHighAndEachLayerOnce) {
     const std::vector<PrismLayers> tiles = someTiles(120);
     for (const unsigned capacity : {1u, 3u, 7u, 31u, 63u}) {

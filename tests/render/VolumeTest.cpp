@@ -135,6 +135,22 @@ TEST(Volume, OfACasterThatTheViewDoesNotDrawLiesWhereItsShadowIsAlone) {
         }
 }
 
+/// The same where nothing else changes: a box that is drawn hides a third of its shadow.
+TEST(Volume, OfACasterThatComesAndGoesInAStillViewFollowsIt) {
+    Scene scene = groundScene({box({-1.0, -1.0, 1.0}, {1.0, 1.0, 2.0})});
+    const osg::ref_ptr<CullsNothing> away = new CullsNothing;
+    osg::Node& caster = *find(*scene.root, "caster");
+    scene.addShadow(new ShadowVolumeTechnique);
+    Camera camera(scene.root, fromAbove(4.0));
+    for (int round = 0; round < 2; ++round)
+        for (const bool drawn : {true, false}) {
+            caster.setCullCallback(drawn ? nullptr : away.get());
+            for (int frame = 0; frame < 2; ++frame)
+                EXPECT_EQ(camera.frame().count(shadowedGround), (drawn ? 64 : 96) * 64)
+                    << round << (drawn ? ", drawn" : "");
+        }
+}
+
 /// Nine of one drawable at a third of the size; the one in the middle is left out.
 TEST(Volume, OfOneOfManyPlacesOfADrawableThatIsLeftOutHidesNothing) {
     Scene scene = groundScene({});

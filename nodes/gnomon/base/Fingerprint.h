@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <osg/BoundingBox>
 #include <osg/Matrixd>
 
 #include <cstddef>
@@ -24,6 +25,12 @@ public:
         mix(bits);
     }
     void mix(const void* address) { mix(std::uint64_t{reinterpret_cast<std::uintptr_t>(address)}); }
+    void mix(const osg::BoundingBox& box) {
+        std::uint64_t words[(sizeof box._min + sizeof box._max) / sizeof(std::uint64_t)];
+        std::memcpy(words, box._min.ptr(), sizeof box._min);
+        std::memcpy(reinterpret_cast<char*>(words) + sizeof box._min, box._max.ptr(), sizeof box._max);
+        for (const std::uint64_t word : words) mix(word);
+    }
     void mix(const osg::Matrixd& matrix) {
         for (int i = 0; i < 16; ++i) mix(matrix.ptr()[i]);
     }

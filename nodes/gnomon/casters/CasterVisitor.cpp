@@ -97,15 +97,6 @@ std::uint64_t valueOf(const osg::Matrixd& matrix) {
     return result.value();
 }
 
-void mixBounds(const osg::Drawable& drawable, Fingerprint& into) {
-    const osg::BoundingBox& bounds = drawable.getBoundingBox();
-    std::uint64_t words[3];
-    static_assert(sizeof words == sizeof bounds._min + sizeof bounds._max);
-    std::memcpy(words, bounds._min.ptr(), sizeof bounds._min);
-    std::memcpy(reinterpret_cast<char*>(words) + sizeof bounds._min, bounds._max.ptr(), sizeof bounds._max);
-    for (const std::uint64_t word : words) into.mix(word);
-}
-
 } // namespace
 
 /// While a node is on the way down.
@@ -126,7 +117,9 @@ public:
         _visitor._inside -= _entered;
         _visitor._exceptions -= _exceptions;
         _visitor._hidden -= _hidden;
+        if (_visitor._states.size() == _states) return;
         _visitor._states.resize(_states);
+        _visitor._hiding.reset();
     }
     OnTheWay(const OnTheWay&) = delete;
     OnTheWay& operator=(const OnTheWay&) = delete;
@@ -150,6 +143,17 @@ void CasterVisitor::enterState(const osg::Node& node) {
     if (!node.getStateSet()) return;
     _states.push_back(_states.back());
     _states.back().apply(*node.getStateSet());
+    _hiding.reset();
+}
+
+void CasterVisitor::enterPlace(const osg::Matrixd& matrix) {
+    _placements.push_back({matrix});
+    _hiding.reset();
+}
+
+void CasterVisitor::leavePlace() {
+    _placements.pop_back();
+    _hiding.reset();
 }
 
 CasterVisitor::CasterVisitor(const Selection& selection)
@@ -161,7 +165,7 @@ CasterVisitor::CasterVisitor(const Selection& selection)
 }
 
 void CasterVisitor::reset() {
-    _placements.assign(1, {osg::Matrixd::identity()});
+    setRootFromVisited(osg::Matrixd::identity());
     _inside = _selected.empty() ? 1 : 0;
     _choice = Fingerprint();
     _judge.reset();
@@ -171,7 +175,7 @@ void CasterVisitor::reset() {
 }
 
 std::uint64_t CasterVisitor::placeValue() const {
-    Placement& place = _placements.back();
+    const Placement& place = _placements.back();
     if (place.value == 0) place.value = valueOf(place.rootFromLocal);
     return place.value;
 }
@@ -348,9 +352,9 @@ void CasterVisitor::apply(osg::Transform& transform) {
     }
     osg::Matrixd matrix = rootFromLocal();
     transform.computeLocalToWorldMatrix(matrix, this);
-    _placements.push_back({matrix});
+    enterPlace(matrix);
     apply(static_cast<osg::Node&>(transform));
-    _placements.pop_back();
+    leavePlace();
 }
 
 /// It asks for the view's CullStack, as in the cull.
@@ -362,11 +366,11 @@ void CasterVisitor::visitTurning(osg::AutoTransform& transform) {
     transform.computeLocalToWorldMatrix(eye, this);
     leaveCullStack();
     _choice.mix(_view->key); // another view turns it otherwise
-    _placements.push_back({matrix});
+    enterPlace(matrix);
     _turned.emplace_back(getNodePath().size(), eye);
     apply(static_cast<osg::Node&>(transform));
     _turned.pop_back();
-    _placements.pop_back();
+    leavePlace();
 }
 
 /// Each of its drawables turns by itself.
@@ -379,14 +383,16 @@ void CasterVisitor::apply(osg::Billboard& billboard) {
          ++i) {
         osg::Matrixd turned = eye;
         billboard.computeMatrix(turned, localFromEye.getTrans(), billboard.getPosition(i));
-        _placements.push_back({turned * localFromEye * rootFromLocal()});
+        enterPlace(turned * localFromEye * rootFromLocal());
         billboard.getDrawable(i)->accept(*this);
-        _placements.pop_back();
+        leavePlace();
     }
 }
 
 Hiding CasterVisitor::hiding() const {
-    return _hidden > 0 ? Hiding::Neither : _states.back().hiding(mirrors(rootFromLocal()));
+    if (_hidden > 0) return Hiding::Neither;
+    if (!_hiding) _hiding = _states.back().hiding(mirrors(rootFromLocal()));
+    return *_hiding;
 }
 
 void CasterVisitor::holdSources(const osg::Drawable& drawable,
@@ -430,7 +436,7 @@ std::uint64_t CasterFingerprint::ofGeometry(const osg::Drawable& drawable, const
     Fingerprint result;
     result.mix(std::uint64_t{cutsQuadsFromFirst()});
     result.mix(contents);
-    mixBounds(drawable, result);
+    result.mix(drawable.getBoundingBox());
     if (const osg::Geometry* geometry = drawable.asGeometry())
         mixGeometry(*geometry, result);
     else

@@ -53,7 +53,10 @@ public:
     void apply(osg::Projection&) override {}
 
     /// The frame that is meant by the root's, where that is not the one that the visited node stands in. Default identity.
-    void setRootFromVisited(const osg::Matrixd& matrix) { _placements.assign(1, {matrix}); }
+    void setRootFromVisited(const osg::Matrixd& matrix) {
+        _placements.assign(1, {matrix});
+        _hiding.reset();
+    }
     /// Takes levels of detail as a view does, whose group is the root. Default: no view.
     void setView(const CasterView& view);
     /// Leaves out what casts nothing by the states that it is drawn with. Default: all counts, and whole.
@@ -100,6 +103,8 @@ private:
     bool isRoot(const osg::Node& node) const { return _roots.count(const_cast<osg::Node*>(&node)) > 0; }
     void findWays();
     void enterState(const osg::Node& node);
+    void enterPlace(const osg::Matrixd& matrix);
+    void leavePlace();
     bool isOnTheWay(const osg::Node& node) const;
     bool mayMatterAbove();
     bool goesTheOnlyWays(osg::Node& node);
@@ -114,9 +119,9 @@ private:
     const std::set<osg::Node*> _roots;                    ///< the same, each once.
     struct Placement {
         osg::Matrixd rootFromLocal;
-        std::uint64_t value = 0; ///< that stands for it; 0 until asked for.
+        mutable std::uint64_t value = 0; ///< that stands for it; 0 until asked for.
     };
-    mutable std::vector<Placement> _placements; ///< of the frames on the way down.
+    std::vector<Placement> _placements; ///< of the frames on the way down.
     Levels _levels = Levels::Chosen;
     std::optional<CasterView> _view;
     std::unique_ptr<osg::CullStack> _cullStack; ///< of the view; null until an LOD by pixels is met.
@@ -132,8 +137,9 @@ private:
     bool _exceptionAbove = false;       ///< whether a state above it may.
     std::vector<NumberedPlane> _planes; ///< of the view, and of ClipNodes on the way down, root frame.
     std::string _leftOut;
-    int _hidden = 0;                  ///< how many nodes on the way down the view's mask leaves out.
-    std::vector<HidingState> _states; ///< of those on the way down; the first is of what is above.
+    int _hidden = 0;                       ///< how many nodes on the way down the view's mask leaves out.
+    std::vector<HidingState> _states;      ///< of those on the way down; the first is of what is above.
+    mutable std::optional<Hiding> _hiding; ///< by these, in this place, once asked for.
     /// Of what is above the selected nodes, the children that lead to it; once for each of its places among them.
     std::map<const osg::Node*, std::vector<osg::Node*>> _ways;
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/ViewFrame.h>
+#include <gnomon/base/Fingerprint.h>
 #include <gnomon/base/PixelRect.h>
 #include <gnomon/casters/DrawableTriangles.h>
 #include <gnomon/compositor/KeptByStage.h>
@@ -182,6 +183,21 @@ std::vector<ReceiverPart> partsOf(const Leaves& leaves, const StageLeaves& drawn
     return parts;
 }
 
+/// Never 0. Leaves that share a matrix mostly follow one another.
+std::uint64_t valueOf(const Leaves& leaves, bool anyMoves) {
+    Fingerprint value;
+    value.mix(std::uint64_t{anyMoves});
+    const osg::RefMatrix* place = nullptr;
+    for (const osgUtil::RenderLeaf* leaf : leaves) {
+        value.mix(static_cast<const void*>(leaf->_drawable.get()));
+        value.mix(leaf->_drawable->getBoundingBox());
+        if (place && leaf->_modelview == place) continue;
+        place = leaf->_modelview.get();
+        value.mix(modelviewOf(*leaf));
+    }
+    return value.value() | 1u;
+}
+
 /// What a technique is told of one part: of leaves without depth, as skies are, only if there are no others.
 ViewFrame viewOf(ViewFrame view, const TechniqueInStage& asked, const ReceiverPart& part) {
     view.projection = *asked.entry.projection * rangeOf(part.placement);
@@ -198,6 +214,7 @@ ViewFrame viewOf(ViewFrame view, const TechniqueInStage& asked, const ReceiverPa
     if (view.seen.empty()) view.seen = part.leaves;
     const auto isMoved = [&asked](const auto* leaf) { return asked.drawn.programs.moves(*leaf); };
     view.movesReceivers = asked.drawn.programs.moved() && std::any_of(view.seen.begin(), view.seen.end(), isMoved);
+    view.seenValue = valueOf(view.seen, view.movesReceivers);
     return view;
 }
 

@@ -62,6 +62,30 @@ ProgramCauses::ProgramCauses(osgUtil::RenderStage& stage)
     _moved = moved;
 }
 
+bool ProgramCauses::areAsArraysStand(const osgUtil::StateGraph* graph) const {
+    const ProgramPlaces& places = _places.at(graph);
+    return !places.movesVertices && !places.setsDepth && !places.discards;
+}
+
+/// Leaves of one state, of one lens and of one matrix mostly follow each other.
+std::uint64_t ProgramCauses::standingValue() const {
+    if (_standingValue) return *_standingValue;
+    Fingerprint value;
+    const osgUtil::StateGraph* graph = nullptr;
+    const osg::RefMatrix *lens = nullptr, *place = nullptr;
+    for (const DrawnLeaf& entry : _all) {
+        const osgUtil::RenderLeaf& leaf = *entry.leaf;
+        value.mix(static_cast<const void*>(leaf._drawable.get()));
+        value.mix(static_cast<const void*>(leaf._drawable->getDrawCallback()));
+        if (leaf._parent != graph) value.mix(std::uint64_t{areAsArraysStand(graph = leaf._parent)});
+        if (!place || leaf._modelview != place) value.mix(modelviewOf(leaf));
+        if (!lens || leaf._projection != lens) value.mix(projectionOf(leaf));
+        place = leaf._modelview.get();
+        lens = leaf._projection.get();
+    }
+    return *(_standingValue = value.value());
+}
+
 void ProgramCauses::findStanding(const osg::Matrixd& projection) const {
     _standing.emplace();
     _lens = projection;
@@ -69,10 +93,7 @@ void ProgramCauses::findStanding(const osg::Matrixd& projection) const {
     const osg::RefMatrix* lens = nullptr;       // and those of one lens
     bool stands = false, isOfView = false;
     for (const DrawnLeaf& entry : _all) {
-        if (entry.leaf->_parent != graph) {
-            const ProgramPlaces& places = _places.at(graph = entry.leaf->_parent);
-            stands = !places.movesVertices && !places.setsDepth && !places.discards;
-        }
+        if (entry.leaf->_parent != graph) stands = areAsArraysStand(graph = entry.leaf->_parent);
         if (!lens || entry.leaf->_projection != lens) isOfView = isSameLens(projectionOf(*entry.leaf), projection);
         lens = entry.leaf->_projection.get();
         if (stands && isOfView && !entry.leaf->_drawable->getDrawCallback())

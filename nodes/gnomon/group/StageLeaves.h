@@ -63,6 +63,8 @@ public:
     /// and hides what is behind them. What a cull or a draw callback, an occluder or small feature culling leaves out, does
     /// not.
     const DrawablePlaces& standing(const osg::Matrixd& projection) const;
+    /// Stands for what standing() is made of: all leaves, where they are, and whether they count.
+    std::uint64_t standingValue() const;
 
     /// For a technique of this group with these receivers.
     void report(const FrameReport& report, const ShadowCasterGroup& group, const Leaves& receiving,
@@ -82,12 +84,14 @@ private:
     std::set<const osgUtil::RenderLeaf*> _setDepths; ///< Their program sets a depth of its own.
     osg::Matrixd _eyeFromWorld;
 
+    bool areAsArraysStand(const osgUtil::StateGraph* graph) const;
     void findStanding(const osg::Matrixd& projection) const;
 
     std::vector<DrawnLeaf> _all;
     std::map<const osgUtil::StateGraph*, ProgramPlaces> _places;
-    mutable std::optional<DrawablePlaces> _standing; ///< Of what is drawn as its arrays stand, once asked for,
-    mutable osg::Matrixd _lens;                      ///< by this lens.
+    mutable std::optional<DrawablePlaces> _standing;     ///< Of what is drawn as its arrays stand, once asked for,
+    mutable osg::Matrixd _lens;                          ///< by this lens.
+    mutable std::optional<std::uint64_t> _standingValue; ///< once asked for.
 };
 
 /// What one stage draws, as its ShadowBin of number `number` sees it after the cull.

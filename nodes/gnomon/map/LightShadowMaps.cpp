@@ -21,15 +21,28 @@ constexpr double mostWaste = 2.0;      // area of a map to the smallest that wou
 constexpr double fewestSoft = 256.0; // texels of soft edges: with fewer, what 128 of them reach would be most of a map
 constexpr double keptClear = 3.0; // texels at a map's sides: what a comparison reaches over, and one against rounding
 
+bool isSameRequest(const MapRequest& one, const MapRequest& other) {
+    const auto key = [](const MapRequest& of) { return std::tie(of.light, of.cone, of.casters); };
+    return key(one) == key(other);
+}
+
 } // namespace
 
 const std::vector<glm::dvec4>& LightShadowMaps::find(const ViewFrame& view, const MapRequest& request) {
     const glm::dmat4 eyeFromScene = SceneFrame(request.casters->layers.origin).eyeFromScene(view);
     SeenScene seen{toGlm(view.projection) * eyeFromScene, // clip space is the projection of eye space to the last bit
+                   eyeFromScene,
                    {view.pixels.x(), view.pixels.y()},
-                   receiversOf(view, eyeFromScene)};
-    take(request, anyIsBetween(*request.casters, request.light, seen.receivers));
-    settle(std::move(seen), request);
+                   view.seenValue};
+    const bool sameView = seen.isAs(_faces.seen());
+    if (!sameView) {
+        seen.receivers = receiversOf(view, eyeFromScene);
+        _faces.see(std::move(seen));
+        _foundFor = 0;
+    }
+    const bool same = sameView && isSameRequest(request, _latest);
+    take(request, same ? _faces.flatsCast() : anyIsBetween(*request.casters, request.light, _faces.seen().receivers));
+    settle(same, request);
     if (_foundFor == _texels) return _needed;
     _faces.find(_texels);
     _foundFor = _texels;
@@ -58,13 +71,12 @@ void LightShadowMaps::take(const MapRequest& request, bool flats) {
 /// Where nothing changes any more, finds all anew, for what is kept of maps goes by frames before: at once, so that edges step
 /// as the motion ends and not later. That is as dear as a change, so the wait doubles while rests prove short: what moves in
 /// every second frame is soon not found anew each time.
-void LightShadowMaps::settle(SeenScene seen, const MapRequest& latest) {
-    const auto key = [](const MapRequest& of) { return std::tie(of.light, of.cone, of.casters); };
-    if (!(seen == _faces.seen() && key(latest) == key(_latest))) {
+///
+/// @param same  view, light and casters are those of the last frame.
+void LightShadowMaps::settle(bool same, const MapRequest& latest) {
+    if (!same) {
         if (_rest > 0) _patience = _rest < longRest ? std::min(2 * _patience, longRest) : 1;
         _rest = _latest.casters ? 0 : longRest; // a light's first frame has none before
-        if (!(seen == _faces.seen())) _foundFor = 0;
-        _faces.see(std::move(seen));
         _latest = latest;
     } else if (_rest < longRest && ++_rest == _patience) {
         MapRequest now = _faces.request();

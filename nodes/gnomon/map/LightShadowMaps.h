@@ -42,7 +42,7 @@ MapForecast forecastMaps(const ViewFrame& view, const ShadowLight& light, const 
 ///
 /// Words: a light looks to one *side* or, as a lamp may, to six. A *face* is what of a side one map is needed for. A *fit* is the
 /// rectangle of the side that this map covers, larger than needed, so that it holds for a while. A *tile* is the square of the
-/// texture that it is drawn in. MapFaces finds faces for each frame anew; fits and tiles, here, live over frames.
+/// texture that it is drawn in. MapFaces finds faces for each frame that differs; fits and tiles, here, live over frames.
 class LightShadowMaps {
 public:
     bool areCastersRetired() const {
@@ -77,7 +77,7 @@ private:
     }
 
     void take(const MapRequest& request, bool flats);
-    void settle(SeenScene seen, const MapRequest& latest);
+    void settle(bool same, const MapRequest& latest);
     int mapsNeeded() const;
     int columns() const;
     int mostTexels() const;

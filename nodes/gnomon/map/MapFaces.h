@@ -8,6 +8,7 @@
 #include <glm/vec2.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -16,12 +17,15 @@ namespace gnomon {
 
 /// What of a scene is seen in one view.
 struct SeenScene {
-    glm::dmat4 clipFromScene{0.0};
-    glm::dvec2 pixels{0.0}; ///< of the view, across and up.
-    std::vector<PlacedBox> receivers;
+    glm::dmat4 clipFromScene{0.0}, eyeFromScene{0.0};
+    glm::dvec2 pixels{0.0};             ///< of the view, across and up.
+    std::uint64_t receiversValue = 0;   ///< see ViewFrame::seenValue.
+    std::vector<PlacedBox> receivers{}; ///< boxes of these.
 
-    bool operator==(const SeenScene& other) const {
-        return clipFromScene == other.clipFromScene && pixels == other.pixels && receivers == other.receivers;
+    /// True if these are of one view and the same receivers; false if those are not known.
+    bool isAs(const SeenScene& other) const {
+        return receiversValue != 0 && receiversValue == other.receiversValue && clipFromScene == other.clipFromScene &&
+               eyeFromScene == other.eyeFromScene && pixels == other.pixels;
     }
 };
 

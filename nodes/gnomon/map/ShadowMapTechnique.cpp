@@ -81,7 +81,7 @@ public:
     std::optional<MapsInView> update(const ViewFrame& view, int lightNumber, const MapRequest& request) {
         Lock lock(_mutex);
         LightShadowMaps& maps = _maps.of(view.key, lightNumber, view.frameNumber);
-        const std::vector<glm::dvec4> corners = maps.find(view, request);
+        const std::vector<glm::dvec4>& corners = maps.find(view, request);
         const auto bounds = corners.empty() ? std::nullopt : screenBounds(corners);
         if (!bounds) {
             maps.letGo();

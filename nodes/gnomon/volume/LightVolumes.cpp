@@ -97,8 +97,7 @@ const ShadowVolumes::Part& volumeOf(const SeenVolumes& all, const SeenPart& seen
     return all.meshes[seen.mesh].volumes->volumes().parts[seen.part];
 }
 
-void add(VolumeRound& round, const SeenVolumes& all, const SeenPart& seen) {
-    VolumeRound::Share& share = round.shares[seen.mesh];
+void add(VolumeRound::Share& share, const SeenVolumes& all, const SeenPart& seen) {
     const ShadowVolumes::Part& part = volumeOf(all, seen);
     VolumeRound::Sides& sides = seen.holding ? share.entered : share.left;
     append(part.grazed ? sides.grazed : sides.usual, {part.first, part.count});
@@ -106,7 +105,6 @@ void add(VolumeRound& round, const SeenVolumes& all, const SeenPart& seen) {
     append(share.darkCaps, seen.caps.dark);
     if (seen.holding) append(share.backs, seen.showsBack ? seen.caps.light : seen.caps.rim);
     if (seen.holding) append(share.rims, seen.caps.rim);
-    round.holding += seen.holding.value_or(0);
 }
 
 /// To those from `first` on that are counted from behind, may be seen from there, or have a rim.
@@ -155,10 +153,10 @@ public:
             const double at = glm::dot(_sides[i], middle), by = reach(_sides[i]),
                          rounding = 1e-12 * (std::abs(at) + by), most = at + by + rounding;
             if (i == near) isCut = at - by <= rounding;
-            isBoxSeen = isBoxSeen && most >= 0.0;
+            isBoxSeen = isBoxSeen && !(most < 0.0);
             const double growth = _light.w * most - glm::dot(_sides[i], _light);
             if (i != near)
-                isVolumeSeen = isVolumeSeen && (most >= 0.0 || (growth > 0.0 && most + length * growth >= 0.0));
+                isVolumeSeen = isVolumeSeen && !(most < 0.0 && !(growth > 0.0 && most + length * growth >= 0.0));
         }
     }
 
@@ -366,13 +364,28 @@ VolumeHull volumeHull(const glm::dvec3& low, const glm::dvec3& high, const glm::
     return points;
 }
 
+namespace {
+
+std::vector<unsigned> roundsOf(std::vector<PrismLayers> tiles, unsigned capacity) {
+    std::vector<unsigned> rounds(tiles.size(), 0u);
+    std::size_t most = 0;
+    for (const PrismLayers& tile : tiles) most += tile.mostOver;
+    if (most <= capacity) return rounds;
+    for (PrismLayers& tile : tiles) tile.mostOver = std::min(tile.mostOver, capacity);
+    unsigned round = 0;
+    for (const std::vector<LayerSlice>& together : stencilBatches(tiles, capacity)) {
+        for (const LayerSlice& slice : together) rounds[slice.tile] = round;
+        ++round;
+    }
+    return rounds;
+}
+
+} // namespace
+
 VolumeRounds::VolumeRounds(const std::vector<osg::ref_ptr<LightVolumes>>& all) {
     for (const osg::ref_ptr<LightVolumes>& volumes : all) {
         _first.push_back(_layers.size());
-        for (unsigned i = 0; i < volumes->volumes().parts.size(); ++i) {
-            _layers.push_back(layersOf(*volumes, i));
-            _most += _layers.back().mostOver;
-        }
+        for (unsigned i = 0; i < volumes->volumes().parts.size(); ++i) _layers.push_back(layersOf(*volumes, i));
     }
 }
 
@@ -380,27 +393,43 @@ std::vector<unsigned> VolumeRounds::of(unsigned capacity) const {
     OpenThreads::ScopedLock<OpenThreads::Mutex> lock(_mutex);
     if (_capacity == capacity) return _rounds;
     _capacity = capacity;
-    _rounds.assign(_layers.size(), 0);
-    if (_most <= capacity) return _rounds;
-    std::vector<PrismLayers> counted = _layers;
-    for (PrismLayers& layers : counted) layers.mostOver = std::min(layers.mostOver, capacity);
-    unsigned round = 0;
-    for (const std::vector<LayerSlice>& together : stencilBatches(counted, capacity)) {
-        for (const LayerSlice& slice : together) _rounds[slice.tile] = round;
-        ++round;
-    }
-    return _rounds;
+    return _rounds = roundsOf(_layers, capacity);
+}
+
+std::vector<unsigned> VolumeRounds::of(unsigned capacity, const std::vector<std::size_t>& parts) const {
+    std::vector<PrismLayers> some;
+    for (const std::size_t part : parts) some.push_back(_layers[part]);
+    return roundsOf(some, capacity);
+}
+
+/// Where a counter has one bit, volumes out of sight must not take rounds: without counters there is but one.
+std::vector<unsigned> SeenVolumes::roundOfEach(unsigned capacity) const {
+    if (!inRounds) return std::vector<unsigned>(parts.size(), 0u);
+    std::vector<std::size_t> places;
+    for (const SeenPart& seen : parts) places.push_back(inRounds->firstOf(meshes[seen.mesh].number) + seen.part);
+    if (capacity == 1) return inRounds->of(capacity, places);
+    const std::vector<unsigned> all = inRounds->of(capacity);
+    std::vector<unsigned> rounds;
+    for (const std::size_t place : places) rounds.push_back(all[place]);
+    return rounds;
 }
 
 /// Parts in the order in which they lie in memory.
 std::vector<VolumeRound> SeenVolumes::rounds(unsigned capacity) const {
-    std::vector<unsigned> numbers;
-    if (inRounds) numbers = inRounds->of(capacity);
+    const std::vector<unsigned> numbers = roundOfEach(capacity);
     std::vector<VolumeRound> all(1);
-    for (const SeenPart& seen : parts) {
-        const std::size_t round = inRounds ? numbers[inRounds->firstOf(meshes[seen.mesh].number) + seen.part] : 0;
-        if (all.size() <= round) all.resize(round + 1);
-        add(all[round], *this, seen);
+    VolumeRound::Share* share = nullptr; // of parts that follow each other mostly the same
+    std::size_t mesh = 0, round = 0;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const SeenPart& seen = parts[i];
+        const std::size_t in = numbers[i];
+        if (all.size() <= in) {
+            all.resize(in + 1);
+            share = nullptr;
+        }
+        if (!share || seen.mesh != mesh || in != round) share = &all[round = in].shares[mesh = seen.mesh];
+        add(*share, *this, seen);
+        all[in].holding += seen.holding.value_or(0);
     }
     const auto isEmpty = [](const VolumeRound& round) { return round.shares.empty(); };
     all.erase(std::remove_if(all.begin(), all.end(), isEmpty), all.end());

@@ -127,6 +127,8 @@ public:
 
     /// The round of each part, mesh by mesh. @param capacity  what a counter can count to, 1 or more.
     std::vector<unsigned> of(unsigned capacity) const;
+    /// Those of some parts alone, which may be fewer; found anew. @param parts  by their places in of().
+    std::vector<unsigned> of(unsigned capacity, const std::vector<std::size_t>& parts) const;
     /// The place in of() where a mesh begins.
     std::size_t firstOf(std::size_t mesh) const { return _first[mesh]; }
 
@@ -136,7 +138,6 @@ protected:
 private:
     std::vector<PrismLayers> _layers; ///< of each part; how many of them hold one point at most.
     std::vector<std::size_t> _first;
-    std::size_t _most = 0; ///< of all together.
     mutable OpenThreads::Mutex _mutex;
     mutable unsigned _capacity = 0; ///< which _rounds are for; 0: none yet.
     mutable std::vector<unsigned> _rounds;
@@ -190,6 +191,9 @@ struct SeenVolumes {
     double vertexStep(double width, double near) const;
     /// True if a counter may pass its range.
     bool overflow(unsigned capacity) const;
+
+private:
+    std::vector<unsigned> roundOfEach(unsigned capacity) const;
 };
 
 /// @param unseen  hide nothing.

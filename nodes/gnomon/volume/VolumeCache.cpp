@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/casters/Casters.h>
+#include <gnomon/compositor/DrawnLeaves.h>
 #include <gnomon/gl/ShaderProgram.h>
+#include <gnomon/group/StageLeaves.h>
 #include <gnomon/volume/VolumeCache.h>
 
 #include <OpenThreads/ScopedLock>
@@ -53,21 +55,29 @@ VolumeCache::VolumeCache() : program(shaderProgram("#define EXTRUDE\n")) {}
 
 std::shared_ptr<const SeenVolumes> VolumeCache::see(const CasterLayers& casters, const ViewFrame& view, int lightNumber,
                                                     const glm::dvec4& light, const SceneFrame& scene) {
-    const ReceiverBox receivers = receiversOf(view, scene);
     Lock lock(_mutex);
     Found& found = _found.of(view.key, lightNumber, view.frameNumber);
-    if (!found.receivers)
-        found.receivers = receivers;
-    else if (!found.receivers->fits(receivers))
-        found.receivers = receivers.grown();
+    const bool sameReceivers = found.receivers && view.seenValue != 0 && found.seenValue == view.seenValue &&
+                               found.origin == scene.origin && hasSameBits(found.eyeFromGroup, view.eyeFromGroup);
+    if (!sameReceivers) {
+        const ReceiverBox receivers = receiversOf(view, scene);
+        if (!found.receivers)
+            found.receivers = receivers;
+        else if (!found.receivers->fits(receivers))
+            found.receivers = receivers.grown();
+        found.seenValue = view.seenValue;
+        found.origin = scene.origin;
+        found.eyeFromGroup = view.eyeFromGroup;
+    }
     const bool same = follow(found, castersOf(casters), light);
     const glm::dmat4 clipFromScene = scene.clipFromScene(view);
-    UnseenCasters unseen = unseenCasters(casters, view, scene);
-    if (same && clipFromScene == found.clipFromScene && unseen.boxes == found.unseen.boxes) return found.seen;
+    const std::uint64_t standing = view.drawn ? view.drawn->standingValue() : 0;
+    if (same && sameReceivers && clipFromScene == found.clipFromScene && standing == found.standingValue)
+        return found.seen;
     found.seen = nullptr; // whose caps may be given up
     found.clipFromScene = clipFromScene;
-    found.unseen = std::move(unseen);
-    if (std::optional<SeenVolumes> seen = seenVolumes(found.volumes, clipFromScene, found.unseen)) {
+    found.standingValue = standing;
+    if (auto seen = seenVolumes(found.volumes, clipFromScene, unseenCasters(casters, view, scene))) {
         seen->inRounds = found.rounds;
         found.seen = std::make_shared<const SeenVolumes>(std::move(*seen));
     }

@@ -6,6 +6,7 @@
 
 #include <OpenThreads/Mutex>
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -41,9 +42,11 @@ private:
         std::optional<ReceiverBox> receivers;            ///< the same as before while it fits.
         std::vector<osg::ref_ptr<LightVolumes>> volumes; ///< of each caster,
         osg::ref_ptr<const VolumeRounds> rounds;         ///< and how these are counted.
-        glm::dmat4 clipFromScene{0.0};                   ///< From here, with these unseen,
-        UnseenCasters unseen;
-        std::shared_ptr<const SeenVolumes> seen; ///< this was seen last; null if nothing was.
+        glm::dvec3 origin{0.0};                          ///< From here, of these receivers and leaves,
+        osg::Matrixd eyeFromGroup;
+        glm::dmat4 clipFromScene{0.0};
+        std::uint64_t seenValue = 0, standingValue = 0; ///< see ViewFrame and ProgramCauses;
+        std::shared_ptr<const SeenVolumes> seen;        ///< this was seen last; null if nothing was.
     };
 
     bool follow(Found& found, const std::vector<VolumeCaster>& casters, const glm::dvec4& light);

@@ -26,45 +26,50 @@ double side(const glm::dvec4& halfSpace, const glm::dvec3& point) {
     return glm::dot(halfSpace, glm::dvec4(point, 1.0));
 }
 
-/// Sutherland and Hodgman's cut of a convex polygon by one half-space. An edge is always cut from its kept end, so that
-/// two faces cut their common edge at the same point.
-Points clipped(const Points& polygon, const glm::dvec4& halfSpace) {
-    Points kept;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-        glm::dvec3 from = polygon[i], to = polygon[(i + 1) % polygon.size()];
-        double fromSide = side(halfSpace, from), toSide = side(halfSpace, to);
-        if (fromSide >= 0.0) kept.push_back(from);
-        if ((fromSide >= 0.0) == (toSide >= 0.0)) continue;
-        if (fromSide < 0.0) {
-            std::swap(from, to);
-            std::swap(fromSide, toSide);
+/// A convex polygon that is cut, in memory that is used again.
+class CutPolygon {
+public:
+    Points corners;
+
+    /// Sutherland and Hodgman's cut by one half-space. An edge is always cut from its kept end, so that two faces cut their
+    /// common edge at the same point.
+    void cut(const glm::dvec4& halfSpace) {
+        _kept.clear();
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            glm::dvec3 from = corners[i], to = corners[(i + 1) % corners.size()];
+            double fromSide = side(halfSpace, from), toSide = side(halfSpace, to);
+            if (fromSide >= 0.0) _kept.push_back(from);
+            if ((fromSide >= 0.0) == (toSide >= 0.0)) continue;
+            if (fromSide < 0.0) {
+                std::swap(from, to);
+                std::swap(fromSide, toSide);
+            }
+            _kept.push_back(from + (to - from) * (fromSide / (fromSide - toSide)));
         }
-        kept.push_back(from + (to - from) * (fromSide / (fromSide - toSide)));
+        corners.swap(_kept);
     }
-    return kept;
+
+private:
+    Points _kept;
+};
+
+std::array<glm::dvec4, 6> sidesOfBox(const glm::dvec3& low, const glm::dvec3& high) {
+    return {{{1, 0, 0, -low.x},
+             {0, 1, 0, -low.y},
+             {0, 0, 1, -low.z},
+             {-1, 0, 0, high.x},
+             {0, -1, 0, high.y},
+             {0, 0, -1, high.z}}};
 }
 
-Points clipped(Points polygon, const std::vector<glm::dvec4>& halfSpaces) {
-    for (const glm::dvec4& halfSpace : halfSpaces) polygon = clipped(polygon, halfSpace);
-    return polygon;
-}
-
-std::vector<glm::dvec4> sidesOfBox(const glm::dvec3& low, const glm::dvec3& high) {
-    return {{1, 0, 0, -low.x},  {0, 1, 0, -low.y},  {0, 0, 1, -low.z},
-            {-1, 0, 0, high.x}, {0, -1, 0, high.y}, {0, 0, -1, high.z}};
-}
-
-/// The two faces of a box across `axis`.
-void addFaces(const glm::dvec3& low, const glm::dvec3& high, int axis, std::vector<Points>& faces) {
+/// The face of a box across `axis` at a level.
+void setFace(const glm::dvec3& low, const glm::dvec3& high, int axis, double level, Points& face) {
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-    for (const double level : {low[axis], high[axis]}) {
-        Points face(4);
-        for (std::size_t i = 0; i < 4; ++i) {
-            face[i][axis] = level;
-            face[i][u] = i == 1 || i == 2 ? high[u] : low[u];
-            face[i][v] = i >= 2 ? high[v] : low[v];
-        }
-        faces.push_back(face);
+    face.resize(4);
+    for (std::size_t i = 0; i < 4; ++i) {
+        face[i][axis] = level;
+        face[i][u] = i == 1 || i == 2 ? high[u] : low[u];
+        face[i][v] = i >= 2 ? high[v] : low[v];
     }
 }
 
@@ -187,15 +192,21 @@ std::vector<glm::dvec3> cutBox(const glm::dvec3& low, const glm::dvec3& high,
     const bool finite =
         isFinite({low, 0.0}) && isFinite({high, 0.0}) && std::all_of(halfSpaces.begin(), halfSpaces.end(), isFinite);
     if (!finite || !glm::all(glm::lessThanEqual(low, high))) return {};
-    std::vector<Points> faces;
-    for (int axis = 0; axis < 3; ++axis) addFaces(low, high, axis, faces);
     Points corners;
-    for (const Points& face : faces) append(corners, clipped(face, halfSpaces));
+    CutPolygon polygon;
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double level : {low[axis], high[axis]}) {
+            setFace(low, high, axis, level, polygon.corners);
+            for (const glm::dvec4& half : halfSpaces) polygon.cut(half);
+            append(corners, polygon.corners);
+        }
+    const auto ofBox = sidesOfBox(low, high);
     for (std::size_t i = 0; i < halfSpaces.size(); ++i) {
-        std::vector<glm::dvec4> others = sidesOfBox(low, high);
+        polygon.corners = section(low, high, halfSpaces[i]);
+        for (const glm::dvec4& half : ofBox) polygon.cut(half);
         for (std::size_t j = 0; j < halfSpaces.size(); ++j)
-            if (j != i) others.push_back(halfSpaces[j]);
-        append(corners, clipped(section(low, high, halfSpaces[i]), others));
+            if (j != i) polygon.cut(halfSpaces[j]);
+        append(corners, polygon.corners);
     }
     std::sort(corners.begin(), corners.end(), lexicographic);
     corners.erase(std::unique(corners.begin(), corners.end()), corners.end());

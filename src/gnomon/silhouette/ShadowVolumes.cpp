@@ -8,6 +8,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vector_relational.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -285,6 +286,12 @@ glm::dvec3 cornerOf(const glm::dvec3& low, const glm::dvec3& high, unsigned i) {
 /// The longest way from a corner of a box to a plane; infinite if there is none.
 double longestTo(const glm::dvec4& plane, const glm::dvec3& low, const glm::dvec3& high, const glm::dvec4& light) {
     double longest = 0.0;
+    if (light.w == 0.0) { // the way is the same everywhere, and of length 1
+        const double steepness = glm::dot(glm::dvec3(plane), glm::dvec3(light));
+        if (!(steepness >= flattest)) return never;
+        const glm::dvec3 farthest = glm::mix(low, high, glm::greaterThan(glm::dvec3(plane), glm::dvec3(0.0)));
+        return std::max(0.0, distance(plane, farthest) / steepness);
+    }
     for (unsigned i = 0; i < 8; ++i) {
         const glm::dvec3 corner = cornerOf(low, high, i), away = awayFrom(light, corner);
         const double steepness = -glm::dot(glm::dvec3(plane), away), length = glm::length(away);

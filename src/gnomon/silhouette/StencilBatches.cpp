@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/silhouette/StencilBatches.h>
 
+#include <glm/common.hpp>
+#include <glm/vec2.hpp>
+
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace gnomon {
@@ -51,11 +56,36 @@ std::size_t firstWithRoom(std::vector<unsigned>& loads, unsigned prisms, unsigne
     return round;
 }
 
+/// True if no cell of a grid is reached by more than `capacity` prisms, so that no point is held by more; false says nothing.
+bool fitInOne(const std::vector<PrismLayers>& tiles, unsigned capacity) {
+    glm::dvec2 low(std::numeric_limits<double>::infinity()), high = -low;
+    for (const PrismLayers& tile : tiles) {
+        low = glm::min(low, tile.low);
+        high = glm::max(high, tile.high);
+    }
+    const int cells = std::clamp(int(2.0 * std::sqrt(double(tiles.size()))), 4, 256);
+    const glm::dvec2 scale = double(cells) / glm::max(high - low, 1e-300); // finite, of no extent, too
+    const auto cellOf = [&](const glm::dvec2& at) { return glm::ivec2(glm::min((at - low) * scale, cells - 1.0)); };
+    std::vector<unsigned> reaching(std::size_t(cells * cells));
+    for (const PrismLayers& tile : tiles) {
+        const glm::ivec2 first = cellOf(tile.low), last = cellOf(tile.high);
+        for (int y = first.y; y <= last.y; ++y)
+            for (int x = first.x; x <= last.x; ++x)
+                if ((reaching[std::size_t(y * cells + x)] += tile.mostOver) > capacity) return false;
+    }
+    return true;
+}
+
 } // namespace
 
 /// Whatever holds a point in one round overlaps there pairwise: the one placed last has counted all the others.
 std::vector<std::vector<LayerSlice>> stencilBatches(const std::vector<PrismLayers>& tiles, unsigned capacity) {
     std::vector<std::vector<LayerSlice>> rounds;
+    if (!tiles.empty() && fitInOne(tiles, capacity)) {
+        rounds.emplace_back();
+        for (std::size_t i = 0; i < tiles.size(); ++i) rounds.front().push_back({i, 0, tiles[i].layers});
+        return rounds;
+    }
     std::vector<Placed> about; // reach as far to the right as the next one begins
     for (const std::size_t i : fromTheLeft(tiles)) {
         const PrismLayers& tile = tiles[i];

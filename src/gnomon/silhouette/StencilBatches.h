@@ -24,7 +24,8 @@ struct LayerSlice {
 /// @param capacity  what a counter can count to: 2^bits - 1, of a single bit 1. 1 or more.
 /// @return rounds, none empty; each tile's layers once, whole tiles where they fit.
 ///
-/// Cost  a sort, and a comparison a pair of tiles whose extents along x overlap.
+/// Cost  a look at the cells of a grid that each tile reaches into; where these do not tell that one round holds all, a sort,
+///       and a comparison a pair of tiles whose extents along x overlap.
 std::vector<std::vector<LayerSlice>> stencilBatches(const std::vector<PrismLayers>& tiles, unsigned capacity);
 
 } // namespace gnomon
