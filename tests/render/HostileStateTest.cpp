@@ -340,20 +340,26 @@ TEST(HostileState, AViewOfIdentifiersIsLeftAsItIs) {
 }
 
 TEST(HostileState, ALightSourceOfANumberThatOpenGLLacksIsNamed) {
-    Scene scene = boxScene();
-    osg::ref_ptr<osg::LightSource> odd = new osg::LightSource;
-    odd->getLight()->setLightNum(40);
-    scene.root->addChild(odd);
-    const auto technique = planar();
-    scene.addShadow(technique);
-    scene.group->addLight(odd);
-    Camera camera(scene.root, view);
-    // OpenSceneGraph itself asks OpenGL for that light, and would tell of the error.
-    camera.context().graphicsContext()->getState()->setCheckForGLErrors(osg::State::NEVER_CHECK_GL_ERRORS);
-    stopListeningToGl(*camera.context().graphicsContext());
-    camera.frame();
-    ASSERT_EQ(technique->diagnose().size(), 1u);
-    EXPECT_NE(technique->diagnose()[0].find("OpenGL's lights are 0 to 7"), std::string::npos);
+    for (const int number : {-1, 8, 40})
+        for (const bool isGiven : {true, false}) { // to the group; else the group finds it
+            Scene scene = boxScene();
+            osg::ref_ptr<osg::LightSource> odd = new osg::LightSource;
+            odd->getLight()->setLightNum(number);
+            scene.root->addChild(odd);
+            const auto technique = planar();
+            scene.addShadow(technique);
+            if (isGiven) scene.group->addLight(odd);
+            Camera camera(scene.root, view);
+            // OpenSceneGraph itself asks OpenGL for that light, and would tell of the error.
+            camera.context().graphicsContext()->getState()->setCheckForGLErrors(osg::State::NEVER_CHECK_GL_ERRORS);
+            stopListeningToGl(*camera.context().graphicsContext());
+            camera.frame();
+            ASSERT_EQ(technique->diagnose().size(), 1u) << number << isGiven;
+            EXPECT_NE(technique->diagnose()[0].find("light " + std::to_string(number) +
+                                                    " is left out, because OpenGL's lights are 0 to 7"),
+                      std::string::npos)
+                << technique->diagnose()[0];
+        }
 }
 
 // As hands and cockpits are drawn: their depths do not tell where they are.
