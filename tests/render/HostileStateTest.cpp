@@ -418,7 +418,9 @@ TEST(TwoLenses, ShadowsOfBothAreBlended) {
 }
 
 TEST(TwoLenses, SoftEdgesOfTheViewLeaveWhatIsLaidOverIt) {
-    for (const bool twoLights : {false, true}) {
+    for (const auto& [composite, twoLights] : {std::pair(gnomon::ShadowCasterGroup::RELIGHT, false),
+                                               {gnomon::ShadowCasterGroup::RELIGHT, true},
+                                               {blend, false}}) {
         Scene scene = boxScene();
         osg::ref_ptr<osg::LightSource> second = new osg::LightSource;
         second->getLight()->setLightNum(1);
@@ -433,6 +435,7 @@ TEST(TwoLenses, SoftEdgesOfTheViewLeaveWhatIsLaidOverIt) {
         const Picture bare = render(scene.root, view);
         cover->setNodeMask(~0u);
         scene.addShadow(disc(30.0, 60.0));
+        scene.group->setComposite(composite);
         const Picture shadowed = render(scene.root, view);
         int covered = 0, wrong = 0;
         for (std::size_t i = 0; i < lit.pixels.size(); ++i) {
@@ -441,6 +444,7 @@ TEST(TwoLenses, SoftEdgesOfTheViewLeaveWhatIsLaidOverIt) {
             wrong += shadowed.pixels[i] != lit.pixels[i];
         }
         EXPECT_GT(covered, 1000);
-        EXPECT_EQ(wrong, 0) << "two lights " << twoLights;
+        EXPECT_EQ(wrong, 0) << "composite " << composite << ", two lights " << twoLights;
+        EXPECT_GT(changed(shadowed, lit), 1000) << "there is a shadow beside it";
     }
 }
