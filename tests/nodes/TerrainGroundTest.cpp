@@ -246,6 +246,26 @@ TEST(GroundRevision, TellsLevelsOfDetailThoughTheyAreDrawnOutsideToo) {
     EXPECT_TRUE(groundRevision(*root, {}, nullptr)->hasLevels);
 }
 
+// Heights are told in the group's frame, wherever either of them stands.
+TEST(GroundRevision, IsAnotherWhereTheGroundMovesAndWhereTheGroupMovesBesideIt) {
+    const auto ground = under(osg::Matrixd::translate(0.0, 0.0, 5.0), triangleAt(3.0)),
+               group = under(osg::Matrixd(), new osg::Group);
+    const osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->addChild(ground);
+    root->addChild(group);
+    osg::ref_ptr<const gnomon::GroundRevision> known;
+    const auto height = [&] {
+        known = groundRevision(*group, {ground, ~0u}, known);
+        return known->ground->height(3.2, 0.2).value_or(1e9);
+    };
+    EXPECT_NEAR(height(), 5.0, 1e-5); // heights are floats
+    ground->setMatrix(osg::Matrixd::translate(0.0, 0.0, 7.0));
+    EXPECT_NEAR(height(), 7.0, 1e-5);
+    group->setMatrix(osg::Matrixd::translate(0.0, 0.0, 1.0));
+    EXPECT_NEAR(height(), 6.0, 1e-5);
+    EXPECT_EQ(groundRevision(*group, {ground, ~0u}, known), known) << "all stands still";
+}
+
 namespace tiles {
 namespace {
 
