@@ -4,6 +4,7 @@
 #include <support/Scene.h>
 
 #include <gnomon/ShadowMapTechnique.h>
+#include <gnomon/ShadowVolumeTechnique.h>
 #include <gnomon/TerrainShadowGeode.h>
 #include <gnomon/TracedShadowTechnique.h>
 #include <osg/Geometry>
@@ -34,14 +35,15 @@ void takeBounds(osg::Node& node) {
 std::vector<osg::ref_ptr<gnomon::ShadowTechnique>> techniquesOn(osg::Node* ground) {
     osg::ref_ptr<gnomon::TerrainShadowGeode> hull = new gnomon::TerrainShadowGeode;
     hull->setReceiver({ground});
-    return {planar(ground), new gnomon::ShadowMapTechnique, hull, new gnomon::TracedShadowTechnique};
+    return {planar(ground), new gnomon::ShadowMapTechnique, hull, new gnomon::TracedShadowTechnique,
+            new gnomon::ShadowVolumeTechnique};
 }
 
 /// The pictures of all techniques. @param change  what is odd about the scene.
 template <class Change>
 std::vector<Picture> pictures(Change change) {
     std::vector<Picture> result;
-    for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t i = 0; i < 5; ++i) {
         Scene scene = groundScene({box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0})});
         osg::Node& ground = *find(*scene.root, "ground");
         change(ground, *scene.content->getChild(scene.content->getNumChildren() - 1));
@@ -54,7 +56,7 @@ std::vector<Picture> pictures(Change change) {
 void expectSame(const std::vector<Picture>& pictures, const std::vector<Picture>& usual) {
     for (std::size_t i = 0; i < usual.size(); ++i)
         EXPECT_LE(pictures[i].different(usual[i]), i == 1 ? 50 : 0) // texels of maps lie elsewhere
-            << "planar, map, hull, traced: " << i;
+            << "planar, map, hull, traced, volume: " << i;
 }
 
 } // namespace
