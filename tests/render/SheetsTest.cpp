@@ -180,6 +180,24 @@ TEST(Sheets, WhoseBacksAreCulledShadowWhatLiesCloseBehindThem) {
     EXPECT_EQ(compared(build, new gnomon::TracedShadowTechnique, view, truth).wrongInside, 0);
 }
 
+/// Of a solid about the eye and the lamp one sees nothing, and through it a ground that it keeps all light from.
+TEST(Sheets, WhoseBacksAreCulledAboutTheEyeAndTheLampShadowAllBeyond) {
+    const View view = test::perspective({0.0, -2.0, 2.5}, {0.0, 2.0, 0.0}, 120, 90);
+    const test::Mesh ground = test::square(20.0), solid = test::box({-4.0, -4.0, 1.0}, {4.0, 4.0, 4.0});
+    const test::Mask truth = test::castRays(ground, {}, lamp, view, {solid});
+    ASSERT_EQ(truth.count(test::Seen::ShadowedReceiver), 120 * 90);
+    const auto build = [&] {
+        Scene scene = test::scene(lamp);
+        scene.content->addChild(test::node(ground));
+        const osg::ref_ptr<osg::Node> node = test::node(solid);
+        node->getOrCreateStateSet()->setAttributeAndModes(new osg::CullFace);
+        scene.content->addChild(node);
+        return scene;
+    };
+    EXPECT_EQ(compared(build, new gnomon::ShadowVolumeTechnique, view, truth).wrongInside, 0);
+    EXPECT_EQ(compared(build, new gnomon::TracedShadowTechnique, view, truth).wrongInside, 0);
+}
+
 /// What one looks through is a pane, or a node that the camera's mask leaves out.
 TEST(Sheets, ThatOneLooksThroughShadowWhatIsBehindThem) {
     const test::Mesh slab = test::box({-1.5, -0.2, 0.5}, {1.5, 0.2, 3.0}),
