@@ -118,6 +118,31 @@ TEST(ShadowQuery, KnowsWhichLinesAreBlocked) {
     EXPECT_FALSE(query.isBlocked({1.0, 1.0, 1.0}, {1.0, 1.0, 1.0}));
 }
 
+// Rays are about the middle of all casters, where a saddle has a corner. So far from the origin a point's doubles are off by a
+// nanometre. From 3 above one sees the corner: the saddle rises by a quarter of the way from there.
+TEST(ShadowQuery, EndsALineAtASurfaceInTheMiddleOfAllCasters) {
+    const osg::Vec3d middle(432100.3, 6400000.7, 812.1);
+    const glm::dvec3 rim[] = {{4.0, 0.0, 1.0}, {0.0, 4.0, -1.0}, {-4.0, 0.0, 1.0}, {0.0, -4.0, -1.0}};
+    test::Mesh saddle;
+    for (int i = 0; i < 4; ++i) saddle.insert(saddle.end(), {glm::dvec3(0.0), rim[i], rim[(i + 1) % 4]});
+    const osg::ref_ptr<ShadowTechnique> technique = new gnomon::TracedShadowTechnique;
+    test::Scene scene = test::scene(sun);
+    const osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(osg::Matrixd::translate(middle));
+    place->addChild(test::node(saddle));
+    scene.content->addChild(place);
+    scene.addShadow(technique);
+    const ShadowQuery query(*technique, {0, sun});
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> across(-3.0, 3.0), off(-1e-9, 1e-9);
+    int blocked = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const double x = across(random), y = across(random), u = off(random), v = off(random), w = off(random);
+        blocked += query.isBlocked(middle + osg::Vec3d(x, y, 3.0), middle + osg::Vec3d(u, v, w));
+    }
+    EXPECT_EQ(blocked, 0);
+    EXPECT_TRUE(query.isBlocked(middle + osg::Vec3d(1.0, 2.0, 3.0), middle - osg::Vec3d(0.1, 0.2, 0.3)));
+}
+
 TEST(ShadowQuery, TellsTheLitShareOfABox) {
     const osg::ref_ptr<ShadowTechnique> technique = new gnomon::TracedShadowTechnique;
     test::Scene scene = test::groundScene({test::quad({-4.0, 0.0, 3.0}, {8.0, 0.0, 0.0}, {0.0, 4.0, 0.0})});
