@@ -229,6 +229,19 @@ TEST(MapPasses, AreOneAndThenNoneUntilACasterMoves) {
     expectAChange(moving);
 }
 
+// Maps are in coordinates about the middle of all casters, (0, 0, 0.5), from which the lamp is where the sun was: one upwards.
+// Behind the box the sun's shadow is under it; the lamp's is three times as wide, [-3, 3] × [-3, 3].
+TEST(Map, FollowsASunThatBecomesALamp) {
+    Scene scene = test::groundScene({test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 1.0})}, 8.0, {0.0, 0.0, 1.0, 0.0});
+    scene.addShadow(mapOf(1024));
+    test::Camera camera(scene.root, test::fromAbove(4.0)); // 32 pixels a unit
+    EXPECT_EQ(camera.frame().count(test::shadowedGround), 0);
+    scene.light->getLight()->setPosition({0.0f, 0.0f, 1.5f, 1.0f});
+    EXPECT_NEAR(camera.frame().count(test::shadowedGround), 192 * 192 - 64 * 64, 4 * 192) << "a pixel along the edge";
+    scene.light->getLight()->setPosition({0.0f, 0.0f, 1.0f, 0.0f});
+    EXPECT_EQ(camera.frame().count(test::shadowedGround), 0);
+}
+
 /// Textures that a viewer's context was ever asked to make.
 unsigned texturesMade(osgViewer::Viewer& viewer) {
     const unsigned context = viewer.getCamera()->getGraphicsContext()->getState()->getContextID();

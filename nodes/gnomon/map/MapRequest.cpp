@@ -26,9 +26,10 @@ double widestTexelOf(const ShadowMapOptions& options) {
     return options.edges == ShadowMapOptions::SMOOTH && options.filter == ShadowMapOptions::FINE ? fine : plain;
 }
 
+/// A sun and a lamp differ by 1 in w, at least.
 bool isSame(const glm::dvec4& a, const glm::dvec4& b, double widest) {
     const double off = sameLight * glm::length(glm::dvec3(b)) + (b.w == 0.0 ? 0.0 : sameAmong * widest);
-    return a.w == b.w && glm::distance(a, b) <= off;
+    return glm::distance(a, b) <= off;
 }
 
 bool isSame(const std::optional<SpotCone>& a, const std::optional<SpotCone>& b) {
