@@ -232,6 +232,23 @@ TEST(Halo, LeavesDepthStencilAndOpenGlAsTheyWere) {
         }
 }
 
+TEST(Halo, IsTheSameOverWhatOthersLeftInTheStencilBuffer) {
+    for (const auto& [shape, cure] :
+         {std::pair(HaloNode::WHOLE, true), {HaloNode::WHOLE, false}, {HaloNode::PIXELS, true}}) {
+        Watched watched({level(0.0, 0.0, 0.5, 1.0)});
+        watched.halo->setShape(shape);
+        watched.halo->setScale(2.0);
+        watched.halo->setWidth(3);
+        watched.halo->setStencilCure(cure);
+        const Picture usual = watched.with();
+        Camera camera(watched.root, above);
+        osg::Camera& settings = *camera.viewer().getCamera();
+        settings.setClearMask(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+        settings.setClearStencil(0xff);
+        EXPECT_EQ(camera.frame().different(usual), 0) << shape << cure;
+    }
+}
+
 TEST(Halo, NeedsOneStencilBitAndSaysSoWhereThereIsNone) {
     Watched watched({level(0.0, 0.0, 0.5, 1.0)});
     watched.halo->setScale(2.0);
