@@ -83,7 +83,8 @@ bool hasCasters(const EnlistedTechnique& entry, const Casters& casters) {
 
 } // namespace
 
-/// What casts below a group as one view has it in this frame.
+/// What casts below a group as one view has it in this frame. Masks do not matter: what they leave out casts, and whether it is
+/// drawn and hides what is behind it is asked of the stage's leaves, see unseenCasters().
 struct ShadowBin::ViewCasters {
     osg::ref_ptr<const ShadowCasterGroup> group;
     CasterView view;
@@ -91,7 +92,7 @@ struct ShadowBin::ViewCasters {
 
     bool areOf(const ShadowCasterGroup& other, const CasterView& seen) const {
         return group == &other && view.eyeFromGroup == seen.eyeFromGroup && view.projection == seen.projection &&
-               view.lodScale == seen.lodScale && view.viewPoint == seen.viewPoint && view.mask == seen.mask;
+               view.lodScale == seen.lodScale && view.viewPoint == seen.viewPoint;
     }
 };
 
