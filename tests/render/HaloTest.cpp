@@ -145,6 +145,20 @@ TEST(Halo, WithoutTheStencilCureBlendsForEachTriangleAndCoversTheModel) {
     expect(watched.with(), 20, 0, blended(*watched.halo, modelColor));
 }
 
+// Of nine squares over one another; three stencil bits count.
+TEST(Halo, WithoutTheStencilCureBlendsNoMoreThanSevenTimes) {
+    std::vector<Panel> squares;
+    for (int i = 0; i < 9; ++i) squares.push_back(level(0.0, 0.0, 0.5, 1.0 + 0.1 * i));
+    Watched watched(squares);
+    watched.halo->setShape(HaloNode::PARTS);
+    watched.halo->setScale(2.0);
+    watched.halo->setStencilCure(false);
+    glm::dvec3 expected = floorColor;
+    for (int i = 0; i < 7; ++i) expected = blended(*watched.halo, expected);
+    const glm::dvec3 off = glm::abs(colorAt(watched.with(), 128 + 24, 128 + 10) - expected);
+    EXPECT_LE(std::max({off.x, off.y, off.z}), 7.0 * rounding);
+}
+
 TEST(Halo, OfPixelsIsTheDiscSweptAlongTheModelsOutline) {
     Watched watched({{{-1.0, -0.7, 1.0}, {1.9, 0.6, 0.0}, {-0.4, 1.3, 0.0}, glm::ivec3(modelColor), "slanted"},
                      {{1.5, 1.0, 1.0}, {0.6, 0.0, 0.0}, {0.0, 0.05, 0.0}, glm::ivec3(modelColor), "thin"}});
@@ -233,8 +247,10 @@ TEST(Halo, LeavesDepthStencilAndOpenGlAsTheyWere) {
 }
 
 TEST(Halo, IsTheSameOverWhatOthersLeftInTheStencilBuffer) {
-    for (const auto& [shape, cure] :
-         {std::pair(HaloNode::WHOLE, true), {HaloNode::WHOLE, false}, {HaloNode::PIXELS, true}}) {
+    for (const auto& [shape, cure] : {std::pair(HaloNode::WHOLE, true),
+                                      {HaloNode::WHOLE, false},
+                                      {HaloNode::PIXELS, true},
+                                      {HaloNode::PIXELS, false}}) {
         Watched watched({level(0.0, 0.0, 0.5, 1.0)});
         watched.halo->setShape(shape);
         watched.halo->setScale(2.0);

@@ -118,7 +118,8 @@ void HaloEffect::blendEachTriangle(const CompositorStage& draw) const {
                       "reserved. Leave bit 0 out of CompositorOptions::reservedStencilBits, or switch the cure on.");
     draw.clearLeftovers(bits);
     LeafReplay::Overlay count;
-    count.write = bits;
+    count.write = count.test = count.reference = bits;
+    count.stencilFunction = GL_NOTEQUAL; // else these bits would begin anew
     count.stencilPass = GL_INCR;
     drawLarger(draw, count);
     for (unsigned times = 1; times <= bits; ++times)
