@@ -74,9 +74,10 @@ void race(std::vector<Contender>& contenders, int frames) {
     std::fflush(stdout);
 }
 
-std::optional<int> framesAsked(osg::ArgumentParser& arguments, const std::string& describes, const Options& others) {
-    int frames = 200;
-    Options table{{"--frames", "N", "frames of each contender, 1 to 100000", "200",
+std::optional<int> framesAsked(osg::ArgumentParser& arguments, const std::string& describes, const Options& others,
+                               int usual) {
+    int frames = usual;
+    Options table{{"--frames", "N", "frames of each contender, 1 to 100000", std::to_string(usual),
                    [&](const std::string& value) { frames = readWhole(value, 1, 100000); }}};
     table.insert(table.end(), others.begin(), others.end());
     if (arguments.read("--help")) {

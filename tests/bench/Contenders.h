@@ -43,9 +43,9 @@ Contender contender(const std::string& name, osg::Group* root, const test::View&
 /// medians, quartiles and what each adds to the first, as a share of what the last adds.
 void race(std::vector<Contender>& contenders, int frames);
 
-/// --frames N, --help and what else a benchmark asks. @return nullopt after --help.
+/// --frames N, --help and what else a benchmark asks. @param usual  frames without --frames. @return nullopt after --help.
 /// @throws std::invalid_argument, one sentence.
 std::optional<int> framesAsked(osg::ArgumentParser& arguments, const std::string& describes,
-                               const gnomon::examples::Options& others = {});
+                               const gnomon::examples::Options& others = {}, int usual = 200);
 
 } // namespace bench
