@@ -36,10 +36,10 @@ TEST(VolumeRounds, OfBodiesInFramesOfTheirOwnGoByTheScene) {
         const auto first = behindCube(glm::dvec3(0.0), glm::dmat4(1.0), light);
         const auto above = behindCube({50.0, 0.0, 0.0}, moved(-50.0, 0.0, 5.0), light);
         const auto beside = behindCube(glm::dvec3(0.0), moved(20.0, 0.0, 0.0), light);
-        const gnomon::VolumeRounds rounds({first, above, beside});
-        const std::vector<unsigned> apart = rounds.of(1), together = rounds.of(3);
-        EXPECT_NE(apart[rounds.firstOf(0)], apart[rounds.firstOf(1)]);
-        EXPECT_EQ(apart[rounds.firstOf(0)], apart[rounds.firstOf(2)]);
+        const osg::ref_ptr<const gnomon::VolumeRounds> rounds = new gnomon::VolumeRounds({first, above, beside});
+        const std::vector<unsigned> apart = rounds->of(1), together = rounds->of(3);
+        EXPECT_NE(apart[rounds->firstOf(0)], apart[rounds->firstOf(1)]);
+        EXPECT_EQ(apart[rounds->firstOf(0)], apart[rounds->firstOf(2)]);
         EXPECT_EQ(together, std::vector<unsigned>(3, 0u)) << "as many as two bits can count";
     }
 }
@@ -49,7 +49,7 @@ TEST(VolumeRounds, OfSomePartsAreNoMoreThanTheseNeed) {
     const glm::dvec4 sun(0.0, 0.0, 1.0, 0.0);
     std::vector<osg::ref_ptr<LightVolumes>> row;
     for (const double x : {0.0, 1.5, 4.5, 3.0}) row.push_back(behindCube(glm::dvec3(0.0), moved(x, 0.0, x), sun));
-    const gnomon::VolumeRounds rounds(row);
-    EXPECT_EQ(rounds.of(1, {0, 2}), std::vector<unsigned>(2, 0u));
-    EXPECT_EQ(rounds.of(1, {0, 1}), (std::vector<unsigned>{0, 1}));
+    const osg::ref_ptr<const gnomon::VolumeRounds> rounds = new gnomon::VolumeRounds(row);
+    EXPECT_EQ(rounds->of(1, {0, 2}), std::vector<unsigned>(2, 0u));
+    EXPECT_EQ(rounds->of(1, {0, 1}), (std::vector<unsigned>{0, 1}));
 }
