@@ -151,6 +151,28 @@ TEST(Volume, OfACasterThatComesAndGoesInAStillViewFollowsIt) {
         }
 }
 
+/// A program lowers the ground by 3 m in a still view: what ended below the ground goes on.
+TEST(Volume, ReachesAGroundThatAProgramBeginsToLower) {
+    const auto build = [] {
+        Scene scene = groundScene({box({-1.0, -1.0, 1.0}, {1.0, 1.0, 2.0})});
+        scene.addShadow("volume:composite=blend");
+        return scene;
+    };
+    const auto lower = [](const Scene& scene) {
+        setProgram(*find(*scene.root, "ground"), osg::Shader::VERTEX,
+                   "void main() { vec4 v = gl_Vertex; v.z -= 3.0; gl_Position = gl_ModelViewProjectionMatrix * v; "
+                   "gl_FrontColor = vec4(0.8); }");
+    };
+    const Scene fresh = build(), scene = build();
+    lower(fresh);
+    Camera camera(scene.root, fromAbove(8.0));
+    for (int frame = 0; frame < 3; ++frame) camera.frame();
+    lower(scene);
+    const Picture now = camera.frame(), expected = render(fresh.root, fromAbove(8.0));
+    EXPECT_EQ(now.different(expected), 0);
+    EXPECT_GT(expected.different(render(build().root, fromAbove(8.0))), 500) << "the shadow falls elsewhere";
+}
+
 /// Nine of one drawable at a third of the size; the one in the middle is left out.
 TEST(Volume, OfOneOfManyPlacesOfADrawableThatIsLeftOutHidesNothing) {
     Scene scene = groundScene({});
