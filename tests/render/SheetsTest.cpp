@@ -161,6 +161,16 @@ TEST(Sheets, WhoseBacksAreCulledKeepTheSunFromTheRoomBehindThem) {
     }
 }
 
+/// A ground, and a caster whose backs the view culls.
+Scene onGround(const osg::Vec4d& light, const test::Mesh& ground, const test::Mesh& caster) {
+    Scene scene = test::scene(light);
+    scene.content->addChild(test::node(ground));
+    const osg::ref_ptr<osg::Node> node = test::node(caster);
+    node->getOrCreateStateSet()->setAttributeAndModes(new osg::CullFace);
+    scene.content->addChild(node);
+    return scene;
+}
+
 /// A bowl's underside close above the ground, seen from above: nearer to that than a pixel of the ground is long.
 TEST(Sheets, WhoseBacksAreCulledShadowWhatLiesCloseBehindThem) {
     const osg::Vec4d sun(0.3, -1.0, 1.5, 0.0);
@@ -168,14 +178,7 @@ TEST(Sheets, WhoseBacksAreCulledShadowWhatLiesCloseBehindThem) {
     const test::Mesh ground = test::square(8.0), sheet = test::insideOut(test::square(1.5, 0.02));
     const test::Mask truth = test::castRays(ground, {}, sun, view, {sheet});
     ASSERT_GT(truth.count(test::Seen::ShadowedReceiver), 300);
-    const auto build = [&] {
-        Scene scene = test::scene(sun);
-        scene.content->addChild(test::node(ground));
-        const osg::ref_ptr<osg::Node> node = test::node(sheet);
-        node->getOrCreateStateSet()->setAttributeAndModes(new osg::CullFace);
-        scene.content->addChild(node);
-        return scene;
-    };
+    const auto build = [&] { return onGround(sun, ground, sheet); };
     EXPECT_EQ(compared(build, new gnomon::ShadowVolumeTechnique, view, truth).wrongInside, 0);
     EXPECT_EQ(compared(build, new gnomon::TracedShadowTechnique, view, truth).wrongInside, 0);
 }
@@ -186,14 +189,7 @@ TEST(Sheets, WhoseBacksAreCulledAboutTheEyeAndTheLampShadowAllBeyond) {
     const test::Mesh ground = test::square(20.0), solid = test::box({-4.0, -4.0, 1.0}, {4.0, 4.0, 4.0});
     const test::Mask truth = test::castRays(ground, {}, lamp, view, {solid});
     ASSERT_EQ(truth.count(test::Seen::ShadowedReceiver), 120 * 90);
-    const auto build = [&] {
-        Scene scene = test::scene(lamp);
-        scene.content->addChild(test::node(ground));
-        const osg::ref_ptr<osg::Node> node = test::node(solid);
-        node->getOrCreateStateSet()->setAttributeAndModes(new osg::CullFace);
-        scene.content->addChild(node);
-        return scene;
-    };
+    const auto build = [&] { return onGround(lamp, ground, solid); };
     EXPECT_EQ(compared(build, new gnomon::ShadowVolumeTechnique, view, truth).wrongInside, 0);
     EXPECT_EQ(compared(build, new gnomon::TracedShadowTechnique, view, truth).wrongInside, 0);
 }

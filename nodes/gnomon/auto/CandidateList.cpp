@@ -205,22 +205,16 @@ private:
     /// One map, and as many as the size asks for, where those are more.
     void addMaps(const MapEdges& edges) {
         for (const int size : sizes) {
-            for (const MapQuality& quality : qualities)
-                _result.all.push_back(mapOf({_one, *_widths}, 1, size, quality));
+            for (const MapQuality& quality : qualities) _result.all.push_back(mapOf(_one, *_widths, 1, size, quality));
             const MapForecast several = _shadow.towards.w == 0.0 ? forecast(*_boxes, 0, size) : _one;
             if (several.maps == _one.maps) continue;
             const EdgeWidths each = edges.in(several);
-            for (const MapQuality& quality : qualities) _result.all.push_back(mapOf({several, each}, 0, size, quality));
+            for (const MapQuality& quality : qualities) _result.all.push_back(mapOf(several, each, 0, size, quality));
         }
     }
 
-    /// What a map is drawn of, and looked up in.
-    struct Mapped {
-        const MapForecast& forecast;
-        const EdgeWidths& edges;
-    };
-    AutoCandidate mapOf(const Mapped& mapped, int cascades, int size, const MapQuality& quality) const {
-        const MapForecast& forecast = mapped.forecast;
+    AutoCandidate mapOf(const MapForecast& forecast, const EdgeWidths& edges, int cascades, int size,
+                        const MapQuality& quality) const {
         AutoCandidate map;
         map.kind = Kind::Map;
         map.map.size = size;
@@ -229,7 +223,6 @@ private:
         map.map.cascades = cascades;
         const double wish = MapSettings(map.map).widestTexel;
         const int texels = texelsFor(forecast.texels / wish, std::min(size, forecast.most), 0);
-        const EdgeWidths& edges = mapped.edges;
         map.error = edges.empty() ? mapError(quality.edge, forecast.texels / texels)
                                   : edges.usual(usualShare,
                                                 [&](const auto& edge) { return mapError(edge, quality.edge, texels); });

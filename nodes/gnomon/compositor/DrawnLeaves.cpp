@@ -4,7 +4,6 @@
 #include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/gl/GlState.h>
 
-#include <glm/gtc/matrix_access.hpp>
 #include <osg/Camera>
 #include <osg/ColorMask>
 #include <osg/Depth>
@@ -393,15 +392,25 @@ std::string whyMissing(const Selection& selection, const char* role, const osg::
            ". Name a node that hands on what it draws to every osg::NodeVisitor, and check the mask.";
 }
 
-bool isModeOn(const std::vector<DrawnLeaf>& leaves, osg::StateAttribute::GLMode mode) {
+namespace {
+
+/// True if a test holds for the state of any leaf. Each is asked once; leaves of one mostly follow each other.
+template <class Test>
+bool anyState(const std::vector<DrawnLeaf>& leaves, const Test& test) {
     std::set<const osgUtil::StateGraph*> seen;
-    const osgUtil::StateGraph* last = nullptr; // leaves of one state mostly follow each other
+    const osgUtil::StateGraph* last = nullptr;
     for (const DrawnLeaf& entry : leaves) {
         if (entry.leaf->_parent == last) continue;
         last = entry.leaf->_parent;
-        if (seen.insert(last).second && isOn(last, mode)) return true;
+        if (seen.insert(last).second && test(last)) return true;
     }
     return false;
+}
+
+} // namespace
+
+bool isModeOn(const std::vector<DrawnLeaf>& leaves, osg::StateAttribute::GLMode mode) {
+    return anyState(leaves, [mode](const osgUtil::StateGraph* graph) { return isOn(graph, mode); });
 }
 
 bool readsBack(const std::vector<DrawnLeaf>& leaves) {
@@ -417,11 +426,10 @@ bool openBy(const osg::ColorMask* mask, Channels& channels) {
 
 Channels writtenChannels(const std::vector<DrawnLeaf>& leaves) {
     Channels written;
-    std::set<const osgUtil::StateGraph*> seen;
-    for (const DrawnLeaf& entry : leaves) {
-        if (!seen.insert(entry.leaf->_parent).second) continue;
-        openBy(resolved<osg::ColorMask>(entry.leaf->_parent, osg::StateAttribute::COLORMASK), written);
-    }
+    anyState(leaves, [&written](const osgUtil::StateGraph* graph) {
+        openBy(resolved<osg::ColorMask>(graph, osg::StateAttribute::COLORMASK), written);
+        return written.red && written.green && written.blue;
+    });
     written.encoded = isModeOn(leaves, framebufferSrgb);
     return written;
 }
@@ -469,21 +477,11 @@ std::optional<ScreenRect> screenBoundsOf(const osgUtil::RenderLeaf& leaf) {
 bool TouchTest::operator()(const osgUtil::RenderLeaf& leaf) {
     const osg::BoundingBox& box = leaf._drawable->getBoundingBox();
     if (_isAll || !box.valid() || (_moved && _moved->count(&leaf) > 0) || !_filled(leaf)) return true;
-    if (!_modelview || leaf._modelview != _modelview || leaf._projection != _projection) cutAt(leaf);
-    const glm::dvec3 low = toGlm(osg::Vec3d(box._min)), high = toGlm(osg::Vec3d(box._max));
-    const glm::dvec4 middle((low + high) / 2.0, 1.0);
-    const glm::dvec3 half = (high - low) / 2.0;
-    return std::none_of(_sides.begin(), _sides.end(), [&](const glm::dvec4& side) {
-        return glm::dot(side, middle) + glm::dot(glm::abs(glm::dvec3(side)), half) < 0.0;
-    });
-}
-
-void TouchTest::cutAt(const osgUtil::RenderLeaf& leaf) {
+    if (!_modelview || leaf._modelview != _modelview || leaf._projection != _projection)
+        _sides = screenSides(_bounds, modelviewOf(leaf) * projectionOf(leaf));
     _modelview = leaf._modelview.get();
     _projection = leaf._projection.get();
-    const glm::dmat4 clipFromLocal = toGlm(modelviewOf(leaf) * projectionOf(leaf));
-    const glm::dvec4 x = glm::row(clipFromLocal, 0), y = glm::row(clipFromLocal, 1), w = glm::row(clipFromLocal, 3);
-    _sides = {x - _bounds.low.x * w, _bounds.high.x * w - x, y - _bounds.low.y * w, _bounds.high.y * w - y};
+    return mayTouch(box, _sides);
 }
 
 } // namespace gnomon

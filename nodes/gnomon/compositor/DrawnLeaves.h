@@ -4,14 +4,13 @@
 #include <gnomon/ScreenPass.h>
 #include <gnomon/Selection.h>
 #include <gnomon/geometry/ScreenBounds.h>
+#include <gnomon/gl/TriangleClusters.h>
 
-#include <glm/vec4.hpp>
 #include <osg/ColorMask>
 #include <osg/StateAttribute>
 #include <osgUtil/RenderLeaf>
 #include <osgUtil/RenderStage>
 
-#include <array>
 #include <cstring>
 #include <map>
 #include <optional>
@@ -64,11 +63,10 @@ private:
     using Order = std::vector<unsigned>;
     bool isIn(const osg::Drawable& drawable) const;
     const osg::Drawable** slotOf(const osg::Drawable& drawable) const;
+    bool isAt(const Place& known, const osg::Matrixd& place, double rounding) const;
     /// Those of a drawable between two places along the axis.
     std::pair<Order::const_iterator, Order::const_iterator> between(const osg::Drawable& drawable, double low,
                                                                     double high) const;
-
-    bool isAt(const Place& known, const osg::Matrixd& place, double rounding) const;
 
     std::vector<Place> _places;
     std::vector<osg::Matrixd> _matrices; ///< of places; those that follow each other mostly share one.
@@ -166,15 +164,13 @@ public:
     bool operator()(const osgUtil::RenderLeaf& leaf);
 
 private:
-    void cutAt(const osgUtil::RenderLeaf& leaf);
-
     const ScreenRect _bounds;
     const bool _isAll; ///< of the screen: whatever is drawn touches it.
     const LeafSet* const _moved;
     FilledTest _filled;
     const osg::RefMatrix *_modelview = nullptr,
                          *_projection = nullptr; ///< of a leaf; those that follow mostly share them.
-    std::array<glm::dvec4, 4> _sides{};          ///< of that part, half-spaces of such a leaf's frame.
+    ScreenSides _sides{};                        ///< of that part, for such a leaf.
 };
 
 } // namespace gnomon

@@ -84,15 +84,6 @@ Origin originOf(const osg::Geometry& geometry) {
     return result;
 }
 
-/// Half-spaces, in the drawable's own frame, of what projects into a part of the screen.
-std::array<osg::Vec4d, 4> sidesOf(const ScreenRect& bounds, const osg::Matrixd& clipFromLocal) {
-    const auto column = [&](int i) {
-        return osg::Vec4d(clipFromLocal(0, i), clipFromLocal(1, i), clipFromLocal(2, i), clipFromLocal(3, i));
-    };
-    const osg::Vec4d x = column(0), y = column(1), w = column(3);
-    return {x - w * bounds.low.x, w * bounds.high.x - x, y - w * bounds.low.y, w * bounds.high.y - y};
-}
-
 bool isOutside(const osg::BoundingBox& box, const osg::Vec4d& side) {
     const double farthest = side.x() * (side.x() > 0.0 ? box.xMax() : box.xMin()) +
                             side.y() * (side.y() > 0.0 ? box.yMax() : box.yMin()) +
@@ -181,6 +172,18 @@ bool TriangleClusters::isBig(const osg::Geometry& geometry) {
     return corners > mostCornersDrawnWhole;
 }
 
+ScreenSides screenSides(const ScreenRect& bounds, const osg::Matrixd& clipFromLocal) {
+    const auto column = [&](int i) {
+        return osg::Vec4d(clipFromLocal(0, i), clipFromLocal(1, i), clipFromLocal(2, i), clipFromLocal(3, i));
+    };
+    const osg::Vec4d x = column(0), y = column(1), w = column(3);
+    return {x - w * bounds.low.x, w * bounds.high.x - x, y - w * bounds.low.y, w * bounds.high.y - y};
+}
+
+bool mayTouch(const osg::BoundingBox& box, const ScreenSides& sides) {
+    return std::none_of(sides.begin(), sides.end(), [&box](const osg::Vec4d& side) { return isOutside(box, side); });
+}
+
 osg::ref_ptr<const TriangleClusters> TriangleClusters::of(const osg::Drawable& drawable) {
     static Cache cache;
     const osg::Geometry* geometry = drawable.asGeometry();
@@ -215,11 +218,10 @@ void TriangleClusters::cut(const osg::PrimitiveSet& primitives, unsigned index, 
 std::vector<TriangleClusters::Run>
 TriangleClusters::touching(const ScreenRect& bounds, const osg::Matrixd& clipFromLocal,
                            const std::function<bool(const osg::BoundingBox&)>& test) const {
-    const std::array<osg::Vec4d, 4> sides = sidesOf(bounds, clipFromLocal);
+    const ScreenSides sides = screenSides(bounds, clipFromLocal);
     std::vector<Run> runs;
     for (const Cluster& cluster : _clusters) {
-        const auto outside = [&](const osg::Vec4d& side) { return isOutside(cluster.box, side); };
-        if (std::any_of(sides.begin(), sides.end(), outside) || (test && !test(cluster.box))) continue;
+        if (!mayTouch(cluster.box, sides) || (test && !test(cluster.box))) continue;
         const Run& run = cluster.run;
         // A strip's runs overlap, and so does what is joined.
         const bool follows = !runs.empty() && runs.back().primitiveSet == run.primitiveSet &&

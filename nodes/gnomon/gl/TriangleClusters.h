@@ -6,12 +6,20 @@
 #include <osg/Geometry>
 #include <osg/Matrixd>
 #include <osg/RenderInfo>
+#include <osg/Vec4d>
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <vector>
 
 namespace gnomon {
+
+/// Half-spaces, in a drawable's own frame, of what projects into a part of the screen.
+using ScreenSides = std::array<osg::Vec4d, 4>;
+ScreenSides screenSides(const ScreenRect& bounds, const osg::Matrixd& clipFromLocal);
+/// False if a box is beyond one of the sides: nothing of it can be seen in that part.
+bool mayTouch(const osg::BoundingBox& box, const ScreenSides& sides);
 
 /// A big geometry in runs of 16 triangles or fewer, in the order in which it draws them, each with its box: so that part
 /// of it can be drawn again from the same arrays.

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
 namespace gnomon {
@@ -22,8 +21,7 @@ constexpr double fewestSoft = 256.0; // texels of soft edges: with fewer, what 1
 constexpr double keptClear = 3.0; // texels at a map's sides: what a comparison reaches over, and one against rounding
 
 bool isSameRequest(const MapRequest& one, const MapRequest& other) {
-    const auto key = [](const MapRequest& of) { return std::tie(of.light, of.cone, of.casters); };
-    return key(one) == key(other);
+    return one.light == other.light && one.cone == other.cone && one.casters == other.casters;
 }
 
 } // namespace

@@ -40,13 +40,15 @@ private:
     /// What was found for a light in a view.
     struct Found {
         std::optional<ReceiverBox> receivers;            ///< the same as before while it fits.
-        std::vector<osg::ref_ptr<LightVolumes>> volumes; ///< of each caster,
-        osg::ref_ptr<const VolumeRounds> rounds;         ///< and how these are counted.
-        glm::dvec3 origin{0.0};                          ///< From here, of these receivers and leaves,
+        std::vector<osg::ref_ptr<LightVolumes>> volumes; ///< of each caster.
+        osg::ref_ptr<const VolumeRounds> rounds;         ///< of these volumes.
+        std::shared_ptr<const SeenVolumes> seen;         ///< of them, last; null if nothing was.
+        // What the receivers and what was seen were found for:
+        glm::dvec3 origin{0.0}; ///< of the scene, group frame.
         osg::Matrixd eyeFromGroup;
         glm::dmat4 clipFromScene{0.0};
-        std::uint64_t seenValue = 0, standingValue = 0; ///< see ViewFrame and ProgramCauses;
-        std::shared_ptr<const SeenVolumes> seen;        ///< this was seen last; null if nothing was.
+        std::uint64_t seenValue = 0;     ///< see ViewFrame.
+        std::uint64_t standingValue = 0; ///< see ProgramCauses.
     };
 
     bool follow(Found& found, const std::vector<VolumeCaster>& casters, const glm::dvec4& light);

@@ -18,10 +18,6 @@ namespace gnomon {
 struct PlacedBox {
     glm::dvec3 low, high;
     glm::dmat4 sceneFromBox{1.0};
-
-    bool operator==(const PlacedBox& other) const {
-        return low == other.low && high == other.high && sceneFromBox == other.sceneFromBox;
-    }
 };
 
 /// Half-spaces of the scene, each a row: what is within has 0 or more in all of them. See cutBox().
