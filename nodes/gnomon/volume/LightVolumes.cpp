@@ -140,24 +140,36 @@ public:
         const glm::dvec4 w = glm::row(clipFromFrame, 3);
         for (int i = 0; i < 4; ++i) _sides[std::size_t(i)] = w + (i & 1 ? -1.0 : 1.0) * glm::row(clipFromFrame, i / 2);
         _sides[near] = w + glm::row(clipFromFrame, 2);
+        _clip = {glm::row(clipFromFrame, 0), glm::row(clipFromFrame, 1), w};
     }
 
     /// @param end  see nearestEnd().
     void lookAt(const glm::dvec3& low, const glm::dvec3& high, const glm::dvec4& end) {
-        const glm::dvec4 middle((low + high) / 2.0, 1.0);
-        const glm::dvec3 half = (high - low) / 2.0;
-        const auto reach = [&half](const glm::dvec4& row) { return glm::dot(glm::abs(glm::dvec3(row)), half); };
-        const double length = longest(end, glm::dot(end, middle) + reach(end));
+        _middle = {(low + high) / 2.0, 1.0};
+        _half = (high - low) / 2.0;
+        _length = longest(end, glm::dot(end, _middle) + reach(end));
         isBoxSeen = isVolumeSeen = true;
         for (std::size_t i = 0; i < _sides.size(); ++i) {
-            const double at = glm::dot(_sides[i], middle), by = reach(_sides[i]),
+            const double at = glm::dot(_sides[i], _middle), by = reach(_sides[i]),
                          rounding = 1e-12 * (std::abs(at) + by), most = at + by + rounding;
             if (i == near) isCut = at - by <= rounding;
             isBoxSeen = isBoxSeen && !(most < 0.0);
             const double growth = _light.w * most - glm::dot(_sides[i], _light);
             if (i != near)
-                isVolumeSeen = isVolumeSeen && !(most < 0.0 && !(growth > 0.0 && most + length * growth >= 0.0));
+                isVolumeSeen = isVolumeSeen && !(most < 0.0 && !(growth > 0.0 && most + _length * growth >= 0.0));
         }
+    }
+
+    /// True if all of the volume is before the eye and within a part of the screen. In doubt, it is not.
+    bool isVolumeWithin(const ScreenRect& part) const {
+        const auto& [x, y, w] = _clip;
+        for (const glm::dvec4& side : {_sides[near], x - part.low.x * w, part.high.x * w - x, y - part.low.y * w,
+                                       part.high.y * w - y}) {
+            const double least = glm::dot(side, _middle) - reach(side),
+                         growth = _light.w * least - glm::dot(side, _light);
+            if (!(least > 0.0 && (growth >= 0.0 || least + _length * growth > 0.0))) return false;
+        }
+        return true;
     }
 
     bool isBoxSeen = false, isVolumeSeen = false; ///< they may be.
@@ -172,8 +184,14 @@ private:
         return steepness > 0.0 ? std::max(0.0, most / steepness) : never;
     }
 
+    double reach(const glm::dvec4& row) const { return glm::dot(glm::abs(glm::dvec3(row)), _half); }
+
     const glm::dvec4 _light;
     std::array<glm::dvec4, 5> _sides; ///< half-spaces: left, right, below, above, near.
+    std::array<glm::dvec4, 3> _clip;  ///< x, y and w of clip space.
+    glm::dvec4 _middle{0.0};          ///< of the box that was looked at last,
+    glm::dvec3 _half{0.0};            ///< half of its sides,
+    double _length = 0.0;             ///< and how far its volume goes on at most.
 };
 
 /// True if a part is, or may be, of a caster that is not drawn: of the joined ones only boxes tell.
@@ -187,6 +205,8 @@ bool isUnseen(const LightVolumes& volumes, const SilhouetteMesh::Part& part, con
     }
     return unseen.touch(low, high);
 }
+
+bool isWhole(const ScreenRect& bounds) { return bounds.low == wholeScreen.low && bounds.high == wholeScreen.high; }
 
 /// Adds the parts of a mesh that can be seen.
 /// @param number  of it, among all of the light.
@@ -203,10 +223,9 @@ void lookAt(LightVolumes& volumes, std::size_t number, const glm::dmat4& clipFro
         const glm::dvec3 low(mesh.parts[i].low), high(mesh.parts[i].high);
         sight.lookAt(low, high, volume.end);
         if (!sight.isVolumeSeen) continue;
-        const bool isKnown =
-            !all.parts.empty() && all.bounds.low == wholeScreen.low && all.bounds.high == wholeScreen.high;
+        const bool isKnown = !all.parts.empty() && (isWhole(all.bounds) || sight.isVolumeWithin(all.bounds));
         const auto bounds =
-            isKnown ? wholeScreen
+            isKnown ? all.bounds
                     : screenBounds(volumeHull(low, high, volume.end, volumes.volumes().light, clipFromMesh));
         if (!bounds) continue;
         const bool shows = sight.isBoxSeen && (!volumes.caster().hides(mesh.parts[i], start.eye) ||
@@ -441,7 +460,7 @@ bool SeenVolumes::overflow(unsigned capacity) const {
                        [&](const SeenPart& seen) { return volumeOf(*this, seen).layers > capacity; });
 }
 
-double SeenVolumes::vertexStep(double width, double near) const {
+double SeenVolumes::vertexStep(double near) const {
     double most = 0.0;
     for (const SeenPart& seen : parts) {
         const MeshInView& mesh = meshes[seen.mesh];
@@ -451,9 +470,17 @@ double SeenVolumes::vertexStep(double width, double near) const {
         const glm::dvec3 nearest = glm::mix(low, high, glm::lessThan(glm::dvec3(towards), glm::dvec3(0.0)));
         const double w = std::max(glm::dot(towards, glm::dvec4(nearest, 1.0)), near);
         const double step = std::max({away.x, away.y, away.z}) / (1 << 24);
-        most = std::max(most, step * glm::length(glm::dvec3(across)) * width / 2.0 / w);
+        most = std::max(most, step * glm::length(glm::dvec3(across)) / 2.0 / w);
     }
     return most;
+}
+
+std::shared_ptr<const KeptVolumes::Counted> KeptVolumes::countedBy(unsigned capacity) const {
+    OpenThreads::ScopedLock<OpenThreads::Mutex> lock(_mutex);
+    if (_capacity != capacity)
+        _counted = std::make_shared<const Counted>(Counted{_seen.rounds(capacity), _seen.overflow(capacity)});
+    _capacity = capacity;
+    return _counted;
 }
 
 std::optional<SeenVolumes> seenVolumes(const std::vector<osg::ref_ptr<LightVolumes>>& all,

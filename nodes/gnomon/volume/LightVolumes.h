@@ -186,14 +186,41 @@ struct SeenVolumes {
 
     /// @param capacity  what a counter can count to, 1 or more.
     std::vector<VolumeRound> rounds(unsigned capacity) const;
-    /// How long the longest step of a vertex's floats is where it is seen at its nearest, in pixels.
-    /// @param width  of the viewport, pixels. @param near  least w of what is seen.
-    double vertexStep(double width, double near) const;
+    /// How long the longest step of a vertex's floats is where it is seen at its nearest, as a share of the viewport's width.
+    /// @param near  least w of what is seen.
+    double vertexStep(double near) const;
     /// True if a counter may pass its range.
     bool overflow(unsigned capacity) const;
 
 private:
     std::vector<unsigned> roundOfEach(unsigned capacity) const;
+};
+
+/// The same, with what is found of it once.
+///
+/// Threads  any number.
+class KeptVolumes {
+public:
+    /// @param near  see SeenVolumes::vertexStep().
+    KeptVolumes(SeenVolumes seen, double near) : _seen(std::move(seen)), _vertexStep(_seen.vertexStep(near)) {}
+
+    const SeenVolumes& seen() const { return _seen; }
+    /// See SeenVolumes.
+    double vertexStep() const { return _vertexStep; }
+
+    struct Counted {
+        std::vector<VolumeRound> rounds;
+        bool overflow; ///< see SeenVolumes.
+    };
+    /// Kept for one capacity: a view's stencil bits seldom change.
+    std::shared_ptr<const Counted> countedBy(unsigned capacity) const;
+
+private:
+    const SeenVolumes _seen;
+    const double _vertexStep;
+    mutable OpenThreads::Mutex _mutex;
+    mutable unsigned _capacity = 0; ///< which _counted is for; 0: none yet.
+    mutable std::shared_ptr<const Counted> _counted;
 };
 
 /// @param unseen  hide nothing.

@@ -17,7 +17,7 @@ namespace {
 /// Marks of one light in one view: what is in a volume.
 class VolumeMark : public Mark {
 public:
-    std::shared_ptr<const SeenVolumes> seen; ///< never null.
+    std::shared_ptr<const KeptVolumes> volumes; ///< never null.
     osg::ref_ptr<const osg::StateSet> program;
     glm::dvec2 pushedBack{0.0}; ///< see ViewFrame.
 
@@ -122,9 +122,9 @@ std::string VolumeMark::draw(ScreenPass& pass) const {
     const unsigned bit = pass.bit();
     const unsigned counters = pass.counters() ? pass.counters() : bit;
     const unsigned capacity = counters & 1u ? counters : 1u; // one bit tells odd from even
-    const std::vector<VolumeRound> rounds = seen->rounds(capacity);
-    if (!pass.counters() && rounds.size() > 1) return noCounter;
-    for (const VolumeRound& round : rounds) {
+    const std::shared_ptr<const KeptVolumes::Counted> counted = volumes->countedBy(capacity);
+    if (!pass.counters() && counted->rounds.size() > 1) return noCounter;
+    for (const VolumeRound& round : counted->rounds) {
         if (round.holding) { // what all pixels begin with
             glDisable(GL_DEPTH_TEST);
             pass.stencilEqual(static_cast<unsigned>(round.holding), 0, counters);
@@ -132,8 +132,8 @@ std::string VolumeMark::draw(ScreenPass& pass) const {
         }
         state.apply(program.get());
         if (!hasProgram(state)) return noProgram;
-        for (const auto& [mesh, share] : round.shares) count(pass, counters, seen->meshes[mesh], share);
-        for (const auto& [mesh, share] : round.shares) uncountBacks(pass, counters, seen->meshes[mesh], share);
+        for (const auto& [mesh, share] : round.shares) count(pass, counters, volumes->seen().meshes[mesh], share);
+        for (const auto& [mesh, share] : round.shares) uncountBacks(pass, counters, volumes->seen().meshes[mesh], share);
         glFrontFace(GL_CCW);
         state.apply();
         if (pass.counters())
@@ -141,7 +141,7 @@ std::string VolumeMark::draw(ScreenPass& pass) const {
         else
             unmarkFar(pass, bit);
     }
-    return seen->overflow(capacity) ? overflow : "";
+    return counted->overflow ? overflow : "";
 }
 
 void VolumeMark::drawDebugView(ScreenPass& pass, int) const {
@@ -151,13 +151,13 @@ void VolumeMark::drawDebugView(ScreenPass& pass, int) const {
     pass.beginReplace();
     pass.testDepth(GL_LEQUAL, false);
     glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
-    for (const VolumeRound& round : seen->rounds(~0u))
+    for (const VolumeRound& round : volumes->seen().rounds(~0u))
         for (const auto& [mesh, share] : round.shares) {
-            place(state, seen->meshes[mesh]);
+            place(state, volumes->seen().meshes[mesh]);
             setUniform(state, "wire", glm::dvec4(1.0, 0.85, 0.0, 1.0));
-            drawSides(pass.renderInfo(), seen->meshes[mesh].volumes->sides(), share.entered);
+            drawSides(pass.renderInfo(), volumes->seen().meshes[mesh].volumes->sides(), share.entered);
             setUniform(state, "wire", glm::dvec4(1.0, 0.2, 0.1, 1.0));
-            drawSides(pass.renderInfo(), seen->meshes[mesh].volumes->sides(), share.left);
+            drawSides(pass.renderInfo(), volumes->seen().meshes[mesh].volumes->sides(), share.left);
         }
     glFrontFace(GL_CCW);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
@@ -169,11 +169,6 @@ constexpr const char* coarse = "casters are so far from one another, or so far f
                                "floats place those near the eye only to "
                                "more than a pixel. Leave what is far away out of the casters, give it a group of its "
                                "own, or put the offset into a transform.";
-
-/// Least w of what is drawn.
-double nearOf(const osg::Matrixd& projection) {
-    return projection(3, 3) != 0.0 ? 1.0 : projection(3, 2) / (projection(2, 2) - 1.0);
-}
 
 } // namespace
 
@@ -199,12 +194,12 @@ std::vector<osg::ref_ptr<Mark>> ShadowVolumeTechnique::prepare(const ViewFrame& 
         report(view.frameNumber, notUsable(light.inGroup));
         return {};
     }
-    const std::shared_ptr<const SeenVolumes> seen = _cache->see(layers, view, light.number, *usable, scene);
-    if (!seen) return {}; // out of sight: nothing to say
-    if (seen->vertexStep(view.pixels.x(), nearOf(view.projection)) > mostOff) report(view.frameNumber, coarse);
+    const std::shared_ptr<const KeptVolumes> volumes = _cache->see(layers, view, light.number, *usable, scene);
+    if (!volumes) return {}; // out of sight: nothing to say
+    if (volumes->vertexStep() * view.pixels.x() > mostOff) report(view.frameNumber, coarse);
     osg::ref_ptr<VolumeMark> mark = new VolumeMark;
-    mark->seen = seen;
-    mark->screenBounds = seen->bounds;
+    mark->volumes = volumes;
+    mark->screenBounds = volumes->seen().bounds;
     mark->program = _cache->program;
     mark->pushedBack = {view.pushedBack.x(), view.pushedBack.y()};
     mark->hasDebugView = _options.view == VOLUMES;

@@ -49,11 +49,16 @@ std::vector<VolumeCaster> castersOf(const CasterLayers& casters) {
     return all;
 }
 
+/// Least w of what is drawn.
+double nearOf(const osg::Matrixd& projection) {
+    return projection(3, 3) != 0.0 ? 1.0 : projection(3, 2) / (projection(2, 2) - 1.0);
+}
+
 } // namespace
 
 VolumeCache::VolumeCache() : program(shaderProgram("#define EXTRUDE\n")) {}
 
-std::shared_ptr<const SeenVolumes> VolumeCache::see(const CasterLayers& casters, const ViewFrame& view, int lightNumber,
+std::shared_ptr<const KeptVolumes> VolumeCache::see(const CasterLayers& casters, const ViewFrame& view, int lightNumber,
                                                     const glm::dvec4& light, const SceneFrame& scene) {
     Lock lock(_mutex);
     Found& found = _found.of(view.key, lightNumber, view.frameNumber);
@@ -79,7 +84,7 @@ std::shared_ptr<const SeenVolumes> VolumeCache::see(const CasterLayers& casters,
     found.standingValue = standing;
     if (auto seen = seenVolumes(found.volumes, clipFromScene, unseenCasters(casters, view, scene))) {
         seen->inRounds = found.rounds;
-        found.seen = std::make_shared<const SeenVolumes>(std::move(*seen));
+        found.seen = std::make_shared<const KeptVolumes>(std::move(*seen), nearOf(view.projection));
     }
     return found.seen;
 }
