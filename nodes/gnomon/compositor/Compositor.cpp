@@ -3,6 +3,7 @@
 #include <gnomon/compositor/FadingCompositor.h>
 #include <gnomon/compositor/KeptByStage.h>
 #include <gnomon/compositor/PrepassBin.h>
+#include <gnomon/compositor/ResolvedState.h>
 
 #include <algorithm>
 #include <iterator>
@@ -127,9 +128,8 @@ bool Compositor::composeDirectly(const Jobs& wanted) {
     const bool relit = job.relight;
     const ScreenRect& bounds = job.mark->screenBounds;
     std::vector<ReplayedLeaf> leaves = leavesToReplay(_draw, wanted, bounds);
-    PlainTest plain;
     const auto other = [&job](const ReplayedLeaf& leaf) { return !job.isNamed(leaf.entry.leaf); };
-    const auto unfit = [&](const ReplayedLeaf& leaf) { return other(leaf) || !plain(*leaf.entry.leaf); };
+    const auto unfit = [&](const ReplayedLeaf& leaf) { return other(leaf) || !isPlain(leaf.entry.leaf->_parent); };
     if (relit && std::any_of(leaves.begin(), leaves.end(), unfit)) return false;
     if (!relit && (isModeOn(_draw.leaves, GL_COLOR_LOGIC_OP) || !notOfLens(job, _draw.leaves).empty())) return false;
     leaves.erase(std::remove_if(leaves.begin(), leaves.end(), other), leaves.end());

@@ -6,10 +6,8 @@
 
 #include <osg/Camera>
 #include <osg/ColorMask>
-#include <osg/Depth>
 #include <osg/Geometry>
 #include <osg/NodeVisitor>
-#include <osg/PolygonMode>
 #include <osg/Polytope>
 #include <osg/Transform>
 #include <osgUtil/StateGraph>
@@ -166,45 +164,6 @@ private:
     osg::Matrixd _eyeFromHere;
     bool _isUnder = false;
 };
-
-bool isPlainDepth(const osg::StateAttribute* attribute) {
-    const auto* depth = static_cast<const osg::Depth*>(attribute);
-    return !depth || (depth->getFunction() == osg::Depth::LESS && depth->getWriteMask() && depth->getZNear() == 0.0 &&
-                      depth->getZFar() == 1.0);
-}
-
-bool isPlainMask(const osg::StateAttribute* attribute) {
-    const auto* mask = static_cast<const osg::ColorMask*>(attribute);
-    return !mask || (mask->getRedMask() && mask->getGreenMask() && mask->getBlueMask() && mask->getAlphaMask());
-}
-
-/// True if the set gives `mode` this value, ON or OFF.
-bool gives(const osg::StateSet& set, osg::StateAttribute::GLMode mode, unsigned value) {
-    using A = osg::StateAttribute;
-    const auto given = set.getMode(mode);
-    return !(given & A::INHERIT) && (given & A::ON) == value;
-}
-
-bool isPlainSet(const osg::StateSet& set) {
-    using A = osg::StateAttribute;
-    return !gives(set, GL_BLEND, A::ON) && !gives(set, GL_STENCIL_TEST, A::ON) &&
-           !gives(set, GL_POLYGON_OFFSET_FILL, A::ON) && !gives(set, GL_COLOR_LOGIC_OP, A::ON) &&
-           !gives(set, GL_DEPTH_TEST, A::OFF) && isPlainDepth(set.getAttribute(A::DEPTH)) &&
-           isPlainMask(set.getAttribute(A::COLORMASK));
-}
-
-bool isOpaqueSet(const osg::StateSet& set) {
-    using A = osg::StateAttribute;
-    const auto* depth = static_cast<const osg::Depth*>(set.getAttribute(A::DEPTH));
-    return !gives(set, GL_BLEND, A::ON) && !gives(set, GL_COLOR_LOGIC_OP, A::ON) &&
-           !gives(set, GL_DEPTH_TEST, A::OFF) && (!depth || depth->getWriteMask());
-}
-
-bool isFilledSet(const osg::StateSet& set) {
-    const auto* mode = static_cast<const osg::PolygonMode*>(set.getAttribute(osg::StateAttribute::POLYGONMODE));
-    return !mode || (mode->getMode(osg::PolygonMode::FRONT) == osg::PolygonMode::FILL &&
-                     mode->getMode(osg::PolygonMode::BACK) == osg::PolygonMode::FILL);
-}
 
 const osg::Node& rootOf(const osg::Node& node) { return node.getNumParents() ? rootOf(*node.getParent(0)) : node; }
 
@@ -394,17 +353,14 @@ std::string whyMissing(const Selection& selection, const char* role, const osg::
 
 namespace {
 
-/// True if a test holds for the state of any leaf. Each is asked once; leaves of one mostly follow each other.
+/// True if a test holds for the state of any leaf. Leaves of one state mostly follow each other.
 template <class Test>
 bool anyState(const std::vector<DrawnLeaf>& leaves, const Test& test) {
-    std::set<const osgUtil::StateGraph*> seen;
+    const KnownStates scope;
     const osgUtil::StateGraph* last = nullptr;
-    for (const DrawnLeaf& entry : leaves) {
-        if (entry.leaf->_parent == last) continue;
-        last = entry.leaf->_parent;
-        if (seen.insert(last).second && test(last)) return true;
-    }
-    return false;
+    return std::any_of(leaves.begin(), leaves.end(), [&](const DrawnLeaf& entry) {
+        return entry.leaf->_parent != last && test(last = entry.leaf->_parent);
+    });
 }
 
 } // namespace
@@ -434,20 +390,6 @@ Channels writtenChannels(const std::vector<DrawnLeaf>& leaves) {
     return written;
 }
 
-bool LeafTest::operator()(const osgUtil::RenderLeaf& leaf) {
-    const osgUtil::StateGraph* graph = leaf._parent;
-    const auto known = _known.find(graph);
-    if (known != _known.end()) return known->second;
-    bool holds = true;
-    for (const auto* above = graph; above && holds; above = above->_parent)
-        holds = !above->getStateSet() || _holds(*above->getStateSet());
-    return _known[graph] = holds;
-}
-
-PlainTest::PlainTest() : LeafTest(isPlainSet) {}
-
-OpaqueTest::OpaqueTest() : LeafTest(isOpaqueSet) {}
-
 std::string nameOf(const osg::Node& node) {
     for (const osg::Node* above = &node; above; above = above->getNumParents() ? above->getParent(0) : nullptr)
         if (!above->getName().empty()) return above->getName();
@@ -456,15 +398,13 @@ std::string nameOf(const osg::Node& node) {
 
 std::string nameOf(const osgUtil::RenderLeaf& leaf) { return nameOf(*leaf._drawable); }
 
-FilledTest::FilledTest() : LeafTest(isFilledSet) {}
-
-bool FilledTest::operator()(const osgUtil::RenderLeaf& leaf) {
+bool isFilled(const osgUtil::RenderLeaf& leaf) {
     const osg::Geometry* geometry = leaf._drawable->asGeometry();
     const auto hasArea = [](const auto& primitives) { return primitives->getMode() >= GL_TRIANGLES; };
     if (geometry &&
         !std::all_of(geometry->getPrimitiveSetList().begin(), geometry->getPrimitiveSetList().end(), hasArea))
         return false;
-    return LeafTest::operator()(leaf);
+    return isFilled(leaf._parent);
 }
 
 std::optional<ScreenRect> screenBoundsOf(const osgUtil::RenderLeaf& leaf) {
@@ -476,7 +416,7 @@ std::optional<ScreenRect> screenBoundsOf(const osgUtil::RenderLeaf& leaf) {
 
 bool TouchTest::operator()(const osgUtil::RenderLeaf& leaf) {
     const osg::BoundingBox& box = leaf._drawable->getBoundingBox();
-    if (_isAll || !box.valid() || (_moved && _moved->count(&leaf) > 0) || !_filled(leaf)) return true;
+    if (_isAll || !box.valid() || (_moved && _moved->count(&leaf) > 0) || !isFilled(leaf)) return true;
     if (!_modelview || leaf._modelview != _modelview || leaf._projection != _projection)
         _sides = screenSides(_bounds, modelviewOf(leaf) * projectionOf(leaf));
     _modelview = leaf._modelview.get();

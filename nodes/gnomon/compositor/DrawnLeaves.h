@@ -12,7 +12,6 @@
 #include <osgUtil/RenderStage>
 
 #include <cstring>
-#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -113,43 +112,13 @@ bool openBy(const osg::ColorMask* mask, Channels& channels);
 /// The colour channels that any of the leaves writes: fewer than all in anaglyph stereo, for one.
 Channels writtenChannels(const std::vector<DrawnLeaf>& leaves);
 
-/// Tells leaves by how they are drawn; asks each of their state sets once.
-class LeafTest {
-public:
-    bool operator()(const osgUtil::RenderLeaf& leaf);
-
-protected:
-    explicit LeafTest(bool (*holds)(const osg::StateSet&)) : _holds(holds) {}
-
-private:
-    bool (*_holds)(const osg::StateSet&);
-    std::map<const osgUtil::StateGraph*, bool> _known;
-};
-
-/// Drawn in the plainest way: depth test LESS with writing, no blending, offset, stencil, depth range or colour mask.
-/// Such a leaf can show only where it is nearest, and never over something drawn before it at the same depth.
-class PlainTest : public LeafTest {
-public:
-    PlainTest();
-};
-
-/// Writes depth and does not blend: where its depth stands, its colour is what one sees.
-class OpaqueTest : public LeafTest {
-public:
-    OpaqueTest();
-};
-
 /// Its drawable's name or that of the nearest named node above it, else its class.
 std::string nameOf(const osgUtil::RenderLeaf& leaf);
 /// The name of a node or of the nearest named one above it, by first parents; else its class name.
 std::string nameOf(const osg::Node& node);
 
 /// Drawn as filled triangles: points and lines are wider than what they are made of.
-class FilledTest : public LeafTest {
-public:
-    FilledTest();
-    bool operator()(const osgUtil::RenderLeaf& leaf);
-};
+bool isFilled(const osgUtil::RenderLeaf& leaf);
 
 /// Where on the screen a leaf of filled triangles can draw; nullopt if nowhere.
 std::optional<ScreenRect> screenBoundsOf(const osgUtil::RenderLeaf& leaf);
@@ -167,7 +136,6 @@ private:
     const ScreenRect _bounds;
     const bool _isAll; ///< of the screen: whatever is drawn touches it.
     const LeafSet* const _moved;
-    FilledTest _filled;
     const osg::RefMatrix *_modelview = nullptr,
                          *_projection = nullptr; ///< of a leaf; those that follow mostly share them.
     ScreenSides _sides{};                        ///< of that part, for such a leaf.

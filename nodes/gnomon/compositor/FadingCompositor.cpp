@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/compositor/FadingCompositor.h>
 #include <gnomon/compositor/KeptByStage.h>
+#include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/compositor/ShadowJob.h>
 
 #include <algorithm>
@@ -30,13 +31,12 @@ FadingCompositor::Leaves FadingCompositor::setAside(Leaves& leaves, const Jobs& 
     LeafReplay::Overlay overlay;
     overlay.lightUniforms = lightUniformsOf(jobs);
     LeafReplay judge(_draw, overlay);
-    OpaqueTest opaque;
     Leaves aside, mixed;
     for (const ReplayedLeaf& leaf : leaves) {
         if (leaf.isBehind) continue;
         const auto ofLens = [&leaf](const ShadowJob* job) { return job->isOfLens(*leaf.entry.leaf); };
         const bool laidOver = leaf.lost == 0 && !std::all_of(jobs.begin(), jobs.end(), ofLens);
-        const bool hides = opaque(*leaf.entry.leaf) || (leaf.lost && jobs.front()->hidingOnly);
+        const bool hides = isOpaque(leaf.entry.leaf->_parent) || (leaf.lost && jobs.front()->hidingOnly);
         if (!hides || laidOver)
             aside.push_back(leaf);
         else if (leaf.lost)

@@ -142,14 +142,13 @@ unsigned lightsLostBy(const osgUtil::RenderLeaf* leaf, const std::vector<const S
 
 /// Index of the last receiver, if only receivers and what is drawn over or before them can show where marks are.
 /// The number of leaves if that cannot be told.
-std::size_t lastReceiver(const std::vector<DrawnLeaf>& leaves, const std::vector<const ShadowJob*>& jobs,
-                         PlainTest& plain) {
+std::size_t lastReceiver(const std::vector<DrawnLeaf>& leaves, const std::vector<const ShadowJob*>& jobs) {
     if (std::any_of(jobs.begin(), jobs.end(), [](const ShadowJob* job) { return !job->receiverNamed; }))
         return leaves.size();
     std::size_t last = 0;
     for (std::size_t i = 0; i < leaves.size(); ++i) {
         if (!isReceiver(jobs, leaves[i].leaf)) continue;
-        if (!plain(*leaves[i].leaf)) return leaves.size();
+        if (!isPlain(leaves[i].leaf->_parent)) return leaves.size();
         last = i;
     }
     return last;
@@ -346,7 +345,7 @@ bool LeafReplay::mayCut() const {
 }
 
 bool LeafReplay::canDrawClusters(const osgUtil::RenderLeaf& leaf, const osg::Geometry& geometry) {
-    return _cuts && (_overlay.mark || TriangleClusters::isBig(geometry)) && _filled(leaf) &&
+    return _cuts && (_overlay.mark || TriangleClusters::isBig(geometry)) && isFilled(leaf) &&
            !_state.useVertexArrayObject(geometry.getUseVertexArrayObject());
 }
 
@@ -525,16 +524,15 @@ std::vector<ReplayedLeaf> leavesToReplay(const CompositorStage& draw, const std:
                                          const ScreenRect& bounds) {
     const std::vector<DrawnLeaf>& leaves = draw.leaves;
     const bool skips = draw.options.skipsUntouched;
-    PlainTest plain;
     TouchTest touches(bounds, jobs.front()->moved.get());
-    const std::size_t last = skips ? lastReceiver(leaves, jobs, plain) : leaves.size();
+    const std::size_t last = skips ? lastReceiver(leaves, jobs) : leaves.size();
     std::vector<ReplayedLeaf> result;
     const DrawnLeaf* selfDrawn = nullptr; // draws itself and is left out: it may have set the colour of what has none
     bool stands = false;                  // something that writes depth
     Catchers catchers(leaves);
     for (std::size_t i = 0; i < leaves.size(); ++i) {
         const osgUtil::RenderLeaf& leaf = *leaves[i].leaf;
-        if (i > last && plain(leaf)) continue;
+        if (i > last && isPlain(leaf._parent)) continue;
         const osg::Geometry* geometry = leaf._drawable->asGeometry();
         const bool replayed = !skips || touches(leaf);
         if (selfDrawn && replayed && geometry && !geometry->getColorArray()) {

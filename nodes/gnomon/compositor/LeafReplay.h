@@ -137,7 +137,6 @@ private:
     ProgramLightUse _lights;
     const unsigned _stackSize;
     unsigned _dark = 0; ///< lights that are lost in OpenGL now.
-    FilledTest _filled;
     std::vector<const osgUtil::RenderLeaf*> _notRelit;
     osgUtil::RenderBin* _bin = nullptr;
     osgUtil::StateGraph* _previous = nullptr; ///< whose state sets are on the stack.
@@ -163,7 +162,7 @@ void writeWhereSeen(const CompositorStage& draw, const std::vector<ReplayedLeaf>
 /// Which leaves must be drawn again so that marked pixels get exactly what a full redraw would give them.
 ///
 /// Left out: leaves whose screen bounds miss `bounds`. If every job names its receiver, marks lie only where a receiver
-/// is what one sees; then a plain leaf (see PlainTest) drawn after the last receiver cannot show there and is left out
+/// is what one sees; then a plain leaf (see isPlain()) drawn after the last receiver cannot show there and is left out
 /// too.
 std::vector<ReplayedLeaf> leavesToReplay(const CompositorStage& draw, const std::vector<const ShadowJob*>& jobs,
                                          const ScreenRect& bounds);

@@ -3,28 +3,138 @@
 
 #include <osg/ColorMask>
 #include <osg/Depth>
+#include <osg/PolygonMode>
 #include <osg/PolygonOffset>
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <typeinfo>
+#include <utility>
 #include <vector>
 
 namespace gnomon {
 namespace {
 
-bool resolvedMode(const osgUtil::StateGraph* graph, osg::StateAttribute::GLMode mode, bool unset, bool& overridden) {
-    if (!graph) {
-        overridden = false;
-        return unset;
+/// What state sets give on the way from the root to each graph. A graph takes over what its parent has.
+class StateTable {
+public:
+    struct Mode {
+        osg::StateAttribute::GLMode mode;
+        bool on, overrides;
+    };
+    struct Attribute {
+        osg::StateAttribute::Type type; ///< the first of its type alone, as of lights.
+        const osg::StateAttribute* attribute;
+        bool overrides, mayApplyProgram;
+    };
+
+    const Mode* modeOf(const osgUtil::StateGraph* graph, osg::StateAttribute::GLMode mode) {
+        return found(_modes, of(graph).modes, [mode](const Mode& known) { return known.mode == mode; });
     }
-    const bool on = resolvedMode(graph->_parent, mode, unset, overridden);
-    if (!graph->getStateSet()) return on;
-    const auto value = graph->getStateSet()->getMode(mode);
-    if (value & osg::StateAttribute::INHERIT) return on;
-    if (overridden && !(value & osg::StateAttribute::PROTECTED)) return on;
-    overridden = value & osg::StateAttribute::OVERRIDE;
-    return value & osg::StateAttribute::ON;
-}
+    const Attribute* attributeOf(const osgUtil::StateGraph* graph, osg::StateAttribute::Type type) {
+        return found(_attributes, of(graph).attributes, [type](const Attribute& known) { return known.type == type; });
+    }
+    bool mayApplyProgram(const osgUtil::StateGraph* graph) {
+        return found(_attributes, of(graph).attributes, [](const Attribute& known) { return known.mayApplyProgram; });
+    }
+    void clear() {
+        _entries.clear();
+        _modes.clear();
+        _attributes.clear();
+        std::fill(_slots.begin(), _slots.end(), none);
+        _last = none;
+    }
+
+    unsigned scopes = 0; ///< that live in the thread.
+
+private:
+    static constexpr unsigned none = ~0u;
+    struct Range {
+        std::size_t first = 0, end = 0;
+    };
+    struct Entry {
+        osg::ref_ptr<const osgUtil::StateGraph> graph; ///< held, so that its address is no other's meanwhile.
+        Range modes, attributes;                       ///< those of a parent where nothing is added.
+    };
+
+    template <class Given, class Test>
+    static const Given* found(const std::vector<Given>& all, const Range& range, const Test& test) {
+        const auto end = all.begin() + std::ptrdiff_t(range.end);
+        const auto at = std::find_if(all.begin() + std::ptrdiff_t(range.first), end, test);
+        return at == end ? nullptr : &*at;
+    }
+
+    /// Leaves of one state mostly follow each other. @param graph  null: no state set gives anything.
+    const Entry& of(const osgUtil::StateGraph* graph) {
+        static const Entry nothing;
+        if (!graph) return nothing;
+        if (_last != none && _entries[_last].graph == graph) return _entries[_last];
+        if (2 * _entries.size() >= _slots.size()) widen();
+        unsigned& slot = slotOf(graph);
+        if (slot != none) return _entries[_last = slot];
+        Entry entry = of(graph->_parent);
+        entry.graph = graph;
+        if (graph->getStateSet()) add(*graph->getStateSet(), entry);
+        _last = unsigned(_entries.size());
+        slotOf(graph) = _last; // there may be more slots now
+        _entries.push_back(std::move(entry));
+        return _entries.back();
+    }
+
+    void add(const osg::StateSet& set, Entry& entry) {
+        if (!set.getModeList().empty()) makeOwn(_modes, entry.modes);
+        for (const auto& [mode, value] : set.getModeList())
+            if (!(value & osg::StateAttribute::INHERIT))
+                give(_modes, entry.modes, Mode{mode, (value & osg::StateAttribute::ON) != 0, false}, value,
+                     [mode = mode](const Mode& known) { return known.mode == mode; });
+        if (!set.getAttributeList().empty()) makeOwn(_attributes, entry.attributes);
+        for (const auto& [key, pair] : set.getAttributeList())
+            if (key.second == 0)
+                give(_attributes, entry.attributes,
+                     Attribute{key.first, pair.first.get(), false, gnomon::mayApplyProgram(*pair.first)}, pair.second,
+                     [type = key.first](const Attribute& known) { return known.type == type; });
+    }
+
+    template <class Given>
+    static void makeOwn(std::vector<Given>& all, Range& range) {
+        const std::size_t first = all.size();
+        for (std::size_t i = range.first; i < range.end; ++i) all.push_back(Given(all[i]));
+        range = {first, all.size()};
+    }
+
+    template <class Given, class Test>
+    static void give(std::vector<Given>& all, Range& range, Given given, unsigned value, const Test& isSame) {
+        given.overrides = (value & osg::StateAttribute::OVERRIDE) != 0;
+        const auto known = std::find_if(all.begin() + std::ptrdiff_t(range.first), all.end(), isSame);
+        if (known == all.end())
+            all.push_back(given);
+        else if (!known->overrides || (value & osg::StateAttribute::PROTECTED))
+            *known = given;
+        range.end = all.size();
+    }
+
+    unsigned& slotOf(const osgUtil::StateGraph* graph) {
+        const std::size_t last = _slots.size() - 1; // all bits are set
+        const auto address = std::uint64_t{reinterpret_cast<std::uintptr_t>(graph)};
+        std::size_t at = (address * 0x9e3779b97f4a7c15u) >> 32 & last;
+        while (_slots[at] != none && _entries[_slots[at]].graph != graph) at = (at + 1) & last;
+        return _slots[at];
+    }
+
+    void widen() {
+        _slots.assign(std::max<std::size_t>(64, 2 * _slots.size()), none);
+        for (unsigned i = 0; i < _entries.size(); ++i) slotOf(_entries[i].graph.get()) = i;
+    }
+
+    std::vector<Mode> _modes;
+    std::vector<Attribute> _attributes;
+    std::vector<Entry> _entries;
+    std::vector<unsigned> _slots; ///< by address: which of the entries.
+    unsigned _last = none;        ///< that was asked for last.
+};
+
+thread_local StateTable known;
 
 bool hasAlphaTestAlone(const osg::StateSet& set) {
     const auto isTest = [](const auto& entry) { return entry.first.first == osg::StateAttribute::ALPHAFUNC; };
@@ -72,26 +182,24 @@ void moveStates(osgUtil::RenderBin& bin, std::vector<osg::ref_ptr<osg::StateSet>
 
 void moveBinStatesToGraphs(osgUtil::RenderBin& bin) { moveStates(bin, {}); }
 
+KnownStates::KnownStates() { ++known.scopes; }
+
+KnownStates::~KnownStates() {
+    if (--known.scopes == 0) known.clear();
+}
+
 bool isOn(const osgUtil::StateGraph* graph, osg::StateAttribute::GLMode mode, bool unset) {
-    bool overridden = false;
-    return resolvedMode(graph, mode, unset, overridden);
+    const KnownStates scope;
+    const StateTable::Mode* given = known.modeOf(graph, mode);
+    return given ? given->on : unset;
 }
 
 const osg::StateAttribute* resolvedAttribute(const osgUtil::StateGraph* graph, osg::StateAttribute::Type type,
                                              bool* overrides) {
-    const osg::StateAttribute* found = nullptr;
-    std::vector<const osg::StateSet*> sets; // innermost first
-    for (; graph; graph = graph->_parent)
-        if (graph->getStateSet()) sets.push_back(graph->getStateSet());
-    bool overridden = false;
-    for (auto set = sets.rbegin(); set != sets.rend(); ++set) {
-        const auto* pair = (*set)->getAttributePair(type);
-        if (!pair || (overridden && !(pair->second & osg::StateAttribute::PROTECTED))) continue;
-        found = pair->first.get();
-        overridden = pair->second & osg::StateAttribute::OVERRIDE;
-    }
-    if (overrides) *overrides = overridden;
-    return found;
+    const KnownStates scope;
+    const StateTable::Attribute* given = known.attributeOf(graph, type);
+    if (overrides) *overrides = given && given->overrides;
+    return given ? given->attribute : nullptr;
 }
 
 osg::Vec2d polygonOffsetOf(const osgUtil::StateGraph* graph) {
@@ -113,14 +221,31 @@ DepthPlacement depthPlacementOf(const osgUtil::StateGraph* graph) {
 }
 
 ProgramPlaces placesIn(const osgUtil::StateGraph* graph) {
-    for (const osgUtil::StateGraph* each = graph; each; each = each->_parent) {
-        if (!each->getStateSet()) continue;
-        for (const auto& [type, pair] : each->getStateSet()->getAttributeList())
-            if (mayApplyProgram(*pair.first) && resolvedAttribute(graph, type.first) == pair.first.get())
-                return {true, true, true, false, true};
-    }
+    const KnownStates scope;
+    if (known.mayApplyProgram(graph)) return {true, true, true, false, true};
     const auto* program = resolved<osg::Program>(graph, osg::StateAttribute::PROGRAM);
     return program && program->getNumShaders() > 0 ? placesOf(*program) : ProgramPlaces();
+}
+
+bool isPlain(const osgUtil::StateGraph* graph) {
+    const KnownStates scope;
+    const auto* depth = resolved<osg::Depth>(graph, osg::StateAttribute::DEPTH);
+    const auto* mask = resolved<osg::ColorMask>(graph, osg::StateAttribute::COLORMASK);
+    return (!depth || (depth->getFunction() == osg::Depth::LESS && depth->getZNear() == 0.0 &&
+                       depth->getZFar() == 1.0)) &&
+           (!mask || (mask->getRedMask() && mask->getGreenMask() && mask->getBlueMask() && mask->getAlphaMask())) &&
+           !isOn(graph, GL_STENCIL_TEST) && !isOn(graph, GL_POLYGON_OFFSET_FILL) && isOpaque(graph);
+}
+
+bool isOpaque(const osgUtil::StateGraph* graph) {
+    const KnownStates scope;
+    return writesDepth(graph) && !isOn(graph, GL_BLEND) && !isOn(graph, GL_COLOR_LOGIC_OP);
+}
+
+bool isFilled(const osgUtil::StateGraph* graph) {
+    const auto* mode = resolved<osg::PolygonMode>(graph, osg::StateAttribute::POLYGONMODE);
+    return !mode || (mode->getMode(osg::PolygonMode::FRONT) == osg::PolygonMode::FILL &&
+                     mode->getMode(osg::PolygonMode::BACK) == osg::PolygonMode::FILL);
 }
 
 bool isShaded(const osgUtil::StateGraph* graph) {

@@ -17,6 +17,16 @@ namespace gnomon {
 /// as every transparent bin has one, stay where they are. Call it in cull.
 void moveBinStatesToGraphs(osgUtil::RenderBin& bin);
 
+/// While one lives in a thread, each graph that the functions below are asked about is resolved once; without one, each time.
+/// State sets must stay as they are meanwhile. They may lie within one another.
+class KnownStates {
+public:
+    KnownStates();
+    ~KnownStates();
+    KnownStates(const KnownStates&) = delete;
+    KnownStates& operator=(const KnownStates&) = delete;
+};
+
 /// True if a mode is on after all state sets from the root to `graph`, as osg::State resolves it.
 /// @param unset  where no state set gives the mode.
 bool isOn(const osgUtil::StateGraph* graph, osg::StateAttribute::GLMode mode, bool unset = false);
@@ -40,6 +50,16 @@ bool writesDepth(const osgUtil::StateGraph* graph);
 
 /// False if what is drawn so leaves no colour: osg::ColorMask closes all three channels.
 bool writesColor(const osgUtil::StateGraph* graph);
+
+/// True if what is drawn so can show only where it is nearest, and never over what was drawn before it at the same depth: depth
+/// test LESS with writing, no blending, offset, stencil, depth range or colour mask.
+bool isPlain(const osgUtil::StateGraph* graph);
+
+/// True if it writes depth and does not blend: where its depth stands, its colour is what one sees.
+bool isOpaque(const osgUtil::StateGraph* graph);
+
+/// True if triangles are drawn filled.
+bool isFilled(const osgUtil::StateGraph* graph);
 
 /// True if a shadow could be expected on what is drawn so, unlike on a sky: it is lit, or a program draws it.
 bool isShaded(const osgUtil::StateGraph* graph);

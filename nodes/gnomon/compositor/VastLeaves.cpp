@@ -118,7 +118,6 @@ bool isDrawnPlainly(const osgUtil::StateGraph* graph) {
 
 std::vector<VastLeaf> vastLeaves(const std::vector<DrawnLeaf>& leaves, const osg::Viewport& viewport) {
     std::vector<VastLeaf> result;
-    FilledTest filled;
     const osgUtil::RenderLeaf* last = nullptr; // leaves that share matrices mostly follow one another
     double near = 0.0, longest = 0.0, scale = 0.0;
     for (const DrawnLeaf& entry : leaves) {
@@ -135,7 +134,7 @@ std::vector<VastLeaf> vastLeaves(const std::vector<DrawnLeaf>& leaves, const osg
         const osg::Geometry* geometry = leaf._drawable->asGeometry();
         const double size = scale * osg::Vec3d(box._max - box._min).length();
         if (!geometry || !box.valid() || !(size > longest)) continue;
-        if (!isSimple(*geometry) || !isDrawnPlainly(leaf._parent) || !filled(leaf)) continue;
+        if (!isSimple(*geometry) || !isDrawnPlainly(leaf._parent) || !isFilled(leaf)) continue;
         osg::TriangleFunctor<Cutter> cutter;
         cutter.clipFromLocal = toGlm(modelviewOf(leaf) * projection);
         cutter.longest = longest;

@@ -133,6 +133,7 @@ std::string ComposeBin::compose(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf
     osg::State& state = *renderInfo.getState();
     const std::string never = whyNeverComposed(state, *getStage());
     if (!never.empty()) return never;
+    const KnownStates states;
     std::vector<DrawnLeaf> leaves = leavesBelow(*getStage(), _below.value_or(getBinNum()));
     MaterialHistory materials(state, *getStage(), PrepassBin::followsDefault(*getStage()));
     osgUtil::RenderLeaf* const last = previous;

@@ -141,10 +141,9 @@ void addMarks(FrameWork& work, const std::vector<ShadowJob>& jobs, std::size_t f
 /// Where leaves can be seen.
 std::optional<ScreenRect> boundsOf(const Leaves& leaves, const ProgramCauses& programs) {
     std::optional<ScreenRect> all;
-    FilledTest filled;
     for (const osgUtil::RenderLeaf* leaf : leaves)
         if (const std::optional<ScreenRect> place =
-                filled(*leaf) && !programs.moves(*leaf) ? screenBoundsOf(*leaf) : wholeScreen)
+                isFilled(*leaf) && !programs.moves(*leaf) ? screenBoundsOf(*leaf) : wholeScreen)
             all = all ? united(*all, *place) : *place;
     return all;
 }
@@ -292,6 +291,7 @@ void ShadowBin::askTechniques() {
     _jobs.clear();
     std::deque<ViewCasters> known;
     if (!_enlisted.empty() || !_effects.empty()) moveBinStatesToGraphs(*getStage());
+    const KnownStates states;
     const std::optional<DepthClear> clear =
         _enlisted.empty() ? std::nullopt : firstDepthClear(*getStage(), getBinNum());
     const StageLeaves drawn(*getStage(), clear ? clear->by->getBinNum() : getBinNum(), !_enlisted.empty());

@@ -41,19 +41,15 @@ ViewFrame viewOf(const EnlistedTechnique& entry, const osg::Viewport& viewport) 
 ProgramCauses::ProgramCauses(osgUtil::RenderStage& stage)
     : _eyeFromWorld(*stage.getInitialViewMatrix()), _all(leavesBelow(stage, std::numeric_limits<int>::max())) {
     const osgUtil::StateGraph* graph = nullptr; // leaves of one state mostly follow each other
-    const ProgramPlaces* places = nullptr;
+    ProgramPlaces places;
     for (const DrawnLeaf& entry : _all) {
-        if (entry.leaf->_parent != graph) {
-            const auto [known, isNew] = _places.try_emplace(graph = entry.leaf->_parent);
-            if (isNew) known->second = placesIn(graph);
-            places = &known->second;
-        }
-        if (places->unseen) {
+        if (entry.leaf->_parent != graph) places = placesIn(graph = entry.leaf->_parent);
+        if (places.unseen) {
             _unseen.push_back(entry);
             continue;
         }
-        if (places->movesVertices && !drawsItself(*entry.leaf->_drawable)) _moving.push_back(entry);
-        if (places->setsDepth) _setDepths.insert(entry.leaf);
+        if (places.movesVertices && !drawsItself(*entry.leaf->_drawable)) _moving.push_back(entry);
+        if (places.setsDepth) _setDepths.insert(entry.leaf);
     }
     if (_moving.empty() && _unseen.empty()) return;
     auto moved = std::make_shared<LeafSet>();
@@ -62,10 +58,14 @@ ProgramCauses::ProgramCauses(osgUtil::RenderStage& stage)
     _moved = moved;
 }
 
-bool ProgramCauses::areAsArraysStand(const osgUtil::StateGraph* graph) const {
-    const ProgramPlaces& places = _places.at(graph);
+namespace {
+
+bool areAsArraysStand(const osgUtil::StateGraph* graph) {
+    const ProgramPlaces places = placesIn(graph);
     return !places.movesVertices && !places.setsDepth && !places.discards;
 }
+
+} // namespace
 
 /// Leaves of one state, of one lens and of one matrix mostly follow each other.
 std::uint64_t ProgramCauses::standingValue() const {
@@ -135,8 +135,7 @@ std::string ProgramCauses::firstUnseen(const ShadowCasterGroup& group, const Lea
     if (_unseen.empty()) return {};
     for (const Leaves* leaves : {&receiving, &receivingLate})
         for (const osgUtil::RenderLeaf* leaf : *leaves)
-            if (const auto places = _places.find(leaf->_parent); places != _places.end() && places->second.unseen)
-                return nameOf(*leaf);
+            if (placesIn(leaf->_parent).unseen) return nameOf(*leaf);
     const osgUtil::RenderLeaf* caster = firstCaster(group, _unseen, _eyeFromWorld);
     return caster ? nameOf(*caster) : std::string();
 }

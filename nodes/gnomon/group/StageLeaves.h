@@ -84,11 +84,9 @@ private:
     std::set<const osgUtil::RenderLeaf*> _setDepths; ///< Their program sets a depth of its own.
     osg::Matrixd _eyeFromWorld;
 
-    bool areAsArraysStand(const osgUtil::StateGraph* graph) const;
     void findStanding(const osg::Matrixd& projection) const;
 
     std::vector<DrawnLeaf> _all;
-    std::map<const osgUtil::StateGraph*, ProgramPlaces> _places;
     mutable std::optional<DrawablePlaces> _standing;     ///< Of what is drawn as its arrays stand, once asked for,
     mutable osg::Matrixd _lens;                          ///< by this lens.
     mutable std::optional<std::uint64_t> _standingValue; ///< once asked for.
