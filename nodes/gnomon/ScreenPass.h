@@ -43,9 +43,10 @@ public:
     enum class Want {
         Blocked, ///< where less than half of the light arrives; each sets bit().
         Touched, ///< where not all of it arrives, with the share that does in alpha; each sets bit().
-        Arriving, ///< the share that arrives, 0 … 1, in alpha; those of pixels where all of it arrives may be left out.
-        Blocking, ///< the share that does not.
-        Factor    ///< as Touched, with what is left of a pixel's colour: factor() where nothing arrives.
+        /// The share that arrives, 0 … 1, in alpha; those of pixels where all of it arrives may be left out. Drawn where no
+        /// depth stands.
+        Arriving,
+        Factor ///< as Touched, with what is left of a pixel's colour: factor() where nothing arrives.
     };
     /// Asks what is drawn next for it. @param bit  of the stencil buffer, zero within the bounds so far.
     void ask(Want want, unsigned bit = 0, float factor = 1.0f);
@@ -104,8 +105,8 @@ public:
     void setAlpha(float value);
     /// Alpha alone becomes factor + (1 - factor) alpha, in the same places.
     void fadeAlpha(float factor);
-    /// What is drawn next multiplies alpha by its own, and writes nothing else.
-    void multiplyAlpha();
+    /// What is drawn next multiplies alpha by its own, or by what that lacks to 1, and writes nothing else.
+    void multiplyAlpha(bool byRest = false);
     /// What stands is multiplied by its alpha, which stays, in the same places.
     void multiplyColorByAlpha();
     /// Passes where what is drawn next compares so with the depth that stands.

@@ -199,8 +199,8 @@ float ofPixel(float arrives) {
 }
 #endif
 
-// wanted: pixels that less than this share reaches; 1, if alpha is to be what does not arrive, else 0; colour of a pixel that
-//         nothing reaches; 1, if other pixels are between that and white. All others get an alpha of 1.
+// wanted: pixels that less than this share reaches; colour of a pixel that nothing reaches; 1, if other pixels are between that
+//         and white. All others get an alpha of 1.
 void main() {
     ivec2 here = ivec2(gl_FragCoord.xy);
     float e = 1.0 - seenDepth(here);
@@ -213,5 +213,5 @@ void main() {
 #ifdef CONE
     unwanted = unwanted || !isInCone(vec4(at, e, 1.0)); // a SpotMark's, or nobody's
 #endif
-    gl_FragColor = vec4(vec3(mix(wanted.z, 1.0, arrives * wanted.w)), unwanted ? 1.0 : mix(arrives, 1.0 - arrives, wanted.y));
+    gl_FragColor = vec4(vec3(mix(wanted.y, 1.0, arrives * wanted.z)), unwanted ? 1.0 : arrives);
 }

@@ -35,7 +35,7 @@ flat in vec4 constant[FLATS];
 // last pixel that `seen` holds: x, y; x, y. drawnError: how far off a surface may be drawn, in depth, divided by w: x + e y; in
 // pixels to z times that. coneFromPixel: see cone.frag.
 #define texel texelAndRows.xy // of the texture, whose sides are 1
-#define rows texelAndRows.zw  // of `seen`: see FrameDepthCopy
+#define rows texelAndRows.zw  // of `seen`: see FrameDepths
 #define border drawnError.w   // share of a map's side
 #define mapFromPixel(i) mat4(placing(i, 0), placing(i, 1), placing(i, 2), placing(i, 3))
 // The same of a map that differs from pixel to pixel: a varying of such an index is slower than a uniform.

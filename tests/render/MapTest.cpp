@@ -97,11 +97,39 @@ TEST(Map, IsTheSameWhereDepthsAreNotCopiedMirrored) {
     realBlit = gl.glBlitFramebuffer;
     ASSERT_NE(realBlit, nullptr);
     gl.glBlitFramebuffer = countedBlit;
+    blits = 0;
     const Picture expected = camera.frame();
     EXPECT_EQ(blits, 1);
     gl.glBlitFramebuffer = nullptr;
     EXPECT_EQ(camera.frame().different(expected), 0);
     gl.glBlitFramebuffer = realBlit;
+}
+
+TEST(Map, OfSeveralLightsLookAtOneCopyOfTheDepths) {
+    for (const auto composite : {gnomon::ShadowCasterGroup::RELIGHT, gnomon::ShadowCasterGroup::BLEND})
+        for (const auto edges : {ShadowMapTechnique::HARD, ShadowMapTechnique::SMOOTH}) {
+            Scene scene = labEight().build();
+            const osg::ref_ptr<osg::LightSource> second = new osg::LightSource;
+            second->getLight()->setLightNum(1);
+            second->getLight()->setPosition({0.8f, -0.4f, 1.2f, 0.0f});
+            scene.root->addChild(second);
+            scene.root->getOrCreateStateSet()->setMode(GL_LIGHT1, osg::StateAttribute::ON);
+            const osg::ref_ptr<ShadowMapTechnique> map = mapOf(1024);
+            map->setEdges(edges);
+            scene.addShadow(map);
+            scene.group->setComposite(composite);
+            test::Camera camera(scene.root, labEight().view);
+            camera.frame(); // draws the maps
+            const unsigned context = camera.viewer().getCamera()->getGraphicsContext()->getState()->getContextID();
+            osg::GLExtensions& gl = *osg::GLExtensions::Get(context, false);
+            realBlit = gl.glBlitFramebuffer;
+            ASSERT_NE(realBlit, nullptr);
+            gl.glBlitFramebuffer = countedBlit;
+            blits = 0;
+            camera.frame();
+            EXPECT_EQ(blits, 1) << composite << " " << edges;
+            gl.glBlitFramebuffer = realBlit;
+        }
 }
 
 TEST(Map, EachFilterAndEachSizeIsBetterThanTheOneBefore) {

@@ -144,6 +144,17 @@ TEST(SoftEdges, ThreeLightsAreWeighedToFiveSteps) {
     EXPECT_EQ(errors.alphaLost, 0);
 }
 
+TEST(SoftEdges, AreLookedUpOnceALightHoweverManyLightsThereAre) {
+    for (const int lights : {1, 2, 3}) {
+        Scene scene = build(lights, 0, 0.25f);
+        Discs discs;
+        for (int i = 0; i < lights; ++i) scene.addShadow(discs.emplace_back(disc(90.0, 75.0, 10.0, 50.0, i)).get());
+        scene.group->setComposite(relight);
+        render(scene.root, view);
+        for (const auto& each : discs) EXPECT_EQ(*each->draws, 1) << lights;
+    }
+}
+
 TEST(SoftEdges, ALightWithHardEdgesStandsBesideOneWithSoft) {
     const Errors errors =
         errorsOf(2, 0.3f, {disc(90.0, 75.0, 10.0, 50.0, 0), disc(120.0, 70.0, 30.0, 30.0, 1)}, relight);

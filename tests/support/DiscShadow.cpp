@@ -13,15 +13,15 @@
 namespace test {
 namespace {
 
-/// Discards what `keepBelow` does not exceed; alpha is the share that arrives, or what is left of it.
+/// Discards what `keepBelow` does not exceed; alpha is the share that arrives.
 constexpr const char* fragment = R"(#version 130
 uniform vec2 centre, radii;
-uniform float keepBelow, blocked;
+uniform float keepBelow;
 void main() {
     float r = distance(gl_FragCoord.xy, centre);
     float share = radii.x < radii.y ? clamp((r - radii.x) / (radii.y - radii.x), 0.0, 1.0) : step(radii.x, r);
     if (share >= keepBelow) discard;
-    gl_FragColor = vec4(0.0, 0.0, 0.0, mix(share, 1.0 - share, blocked));
+    gl_FragColor = vec4(0.0, 0.0, 0.0, share);
 })";
 
 osg::ref_ptr<osg::StateSet> programState() {
@@ -39,6 +39,7 @@ public:
 
     std::string draw(gnomon::ScreenPass& pass) const override {
         using Want = gnomon::ScreenPass::Want;
+        ++*draws;
         osg::State& state = pass.state();
         state.apply(set.get());
         const auto* program = state.getLastAppliedProgramObject();
@@ -48,7 +49,6 @@ public:
         gl.glUniform2f(at("centre"), static_cast<float>(centre.x()), static_cast<float>(centre.y()));
         gl.glUniform2f(at("radii"), static_cast<float>(inner), static_cast<float>(outer));
         gl.glUniform1f(at("keepBelow"), want == Want::Blocked ? 0.5f : want == Want::Touched ? 1.0f : 2.0f);
-        gl.glUniform1f(at("blocked"), want == Want::Blocking ? 1.0f : 0.0f);
         pass.testDepth(GL_GREATER); // nothing at far depth
         pass.drawQuad(1.0);
         glDisable(GL_DEPTH_TEST);
@@ -58,6 +58,7 @@ public:
 
     osg::Vec2d centre;
     double inner = 0.0, outer = 0.0;
+    std::shared_ptr<std::atomic<int>> draws;
     osg::ref_ptr<osg::StateSet> set = programState();
 };
 
@@ -66,6 +67,7 @@ osg::ref_ptr<gnomon::Mark> markOf(const DiscShadow& disc) {
     mark->centre = disc.centre;
     mark->inner = disc.inner;
     mark->outer = disc.outer;
+    mark->draws = disc.draws;
     const auto place = [&](double x, double y) {
         return glm::dvec2(std::clamp(2.0 * x / disc.size.x() - 1.0, -1.0, 1.0),
                           std::clamp(2.0 * y / disc.size.y() - 1.0, -1.0, 1.0));

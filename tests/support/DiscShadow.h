@@ -2,6 +2,8 @@
 #pragma once
 #include <gnomon/ShadowTechnique.h>
 
+#include <atomic>
+#include <memory>
 #include <set>
 
 namespace test {
@@ -24,6 +26,7 @@ public:
     double inner, outer;
     std::set<int> lights; ///< those it blocks; empty: all.
     osg::Vec2d size;      ///< of the viewport, in pixels.
+    const std::shared_ptr<std::atomic<int>> draws = std::make_shared<std::atomic<int>>(0); ///< of its marks, so far.
 
 protected:
     ~DiscShadow() override = default;

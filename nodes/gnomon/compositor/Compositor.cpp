@@ -4,9 +4,11 @@
 #include <gnomon/compositor/KeptByStage.h>
 #include <gnomon/compositor/PrepassBin.h>
 #include <gnomon/compositor/ResolvedState.h>
+#include <gnomon/gl/FrameDepths.h>
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 
 namespace gnomon {
 namespace {
@@ -22,6 +24,15 @@ std::vector<Jobs> byLens(const Jobs& jobs) {
     return lenses;
 }
 
+/// Those of all marks that may look at depths.
+PixelRect pixelsLookedAt(const std::vector<ShadowJob>& jobs, const osg::Viewport& viewport) {
+    std::optional<ScreenRect> bounds;
+    for (const ShadowJob& job : jobs)
+        if (!job.programMark() && job.mark->kind() != Mark::Kind::Counts)
+            bounds = bounds ? united(*bounds, job.mark->screenBounds) : job.mark->screenBounds;
+    return bounds ? wholeQuads(pixelsWithin(*bounds, viewport), viewport) : PixelRect();
+}
+
 } // namespace
 
 /// Unless it has a named receiver or something of another view lies over it.
@@ -29,13 +40,15 @@ bool needsNoMarks(const ShadowJob& job, const std::vector<DrawnLeaf>& leaves) {
     return !job.relight && !job.receiverNamed && job.mark->canDarken && notOfLens(job, leaves).empty();
 }
 
-Compositor::Compositor(CompositorStage draw) : _draw(std::move(draw)), _marks(_draw, false) {}
+Compositor::Compositor(const CompositorStage& draw) : _draw(draw), _marks(_draw, false) {}
 
 void Compositor::compose(const std::vector<ShadowJob>& jobs, const std::vector<osg::ref_ptr<ViewEffect>>& effects) {
     const auto draw = [&](ViewEffect::Turn turn) {
         for (const osg::ref_ptr<ViewEffect>& effect : effects)
             if (effect->turn() == turn) effect->draw(_draw);
+        FrameDepths::forget(_draw.state);
     };
+    FrameDepths::begin(_draw.state, pixelsLookedAt(jobs, *_draw.stage.getViewport()));
     Jobs relit;
     std::map<float, Jobs> blended;
     for (const ShadowJob& job : jobs) {
@@ -101,14 +114,18 @@ void Compositor::relightAny(const Jobs& jobs, std::map<float, Jobs>& blended) {
 /// True if any of them fades, and the framebuffer can hold them.
 bool Compositor::areFading(const Jobs& jobs) const {
     bool fading = false;
+    const bool hasObjects = _draw.state.get<osg::GLExtensions>()->isFrameBufferObjectSupported;
     for (const ShadowJob* job : jobs) {
         if (!job->fades()) continue;
         fading = true;
-        if (!_draw.hasAlpha)
+        if (!hasObjects)
+            job->report("this OpenGL makes no framebuffer objects, so the shadow's edges are hard. Use OpenGL 3.0 or "
+                        "later.");
+        else if (!_draw.hasAlpha)
             job->report("this framebuffer has no alpha bits, so the shadow's edges are hard. Ask for 8 with "
                         "osg::DisplaySettings::setMinimumNumAlphaBits(8) before the window is made.");
     }
-    return fading && _draw.hasAlpha;
+    return fading && hasObjects && _draw.hasAlpha;
 }
 
 /// A leaf with a stencil test of its own cannot be drawn again under ours, nor can one that blends with what is not known.

@@ -17,7 +17,8 @@ bool needsNoMarks(const ShadowJob& job, const std::vector<DrawnLeaf>& leaves);
 /// Jobs that fade go to the FadingCompositor.
 class Compositor {
 public:
-    explicit Compositor(CompositorStage draw);
+    /// @param draw  must outlive this.
+    explicit Compositor(const CompositorStage& draw);
 
     /// @param effects  drawn in their turn.
     void compose(const std::vector<ShadowJob>& jobs, const std::vector<osg::ref_ptr<ViewEffect>>& effects);
@@ -42,7 +43,7 @@ private:
     void writeBackground(ScreenPass& screen) const;
     bool isBackgroundKnown() const;
 
-    const CompositorStage _draw;
+    const CompositorStage& _draw;
     const StencilMarks _marks; ///< hard.
 };
 

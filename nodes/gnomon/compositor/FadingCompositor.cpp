@@ -8,6 +8,41 @@
 
 namespace gnomon {
 
+namespace {
+
+Jobs fadingOf(const MarkedLights& lights) {
+    Jobs fading;
+    for (const MarkedLight& light : lights)
+        if (light.fading) fading.push_back(light.fading);
+    return fading;
+}
+
+/// Multiplies alpha by the share that arrives, too.
+void markWeighed(const ShadowJob& job, unsigned bit, ScreenPass& screen) {
+    screen.multiplyAlpha();
+    screen.ask(ScreenPass::Want::Touched, bit);
+    job.report(job.mark->draw(screen));
+}
+
+StencilMarks::MarkFading markBy(const LightShares& shares) {
+    return [&shares](const ShadowJob& job, unsigned bit, ScreenPass& screen) { shares.mark(job, bit, screen); };
+}
+
+/// @param lost  the light is.
+void weighOne(const MarkedLight& light, bool lost, const LightShares& shares, ScreenPass& screen) {
+    if (light.fading) {
+        screen.stencilEqual(light.fadingBit, light.bits(), 0);
+        shares.multiplyAlpha(*light.fading, lost, screen);
+    }
+    if (lost)
+        screen.stencilEqual(0, light.bits(), 0);
+    else if (light.hardBit)
+        screen.stencilAny(light.hardBit);
+    if (lost || light.hardBit) screen.setAlpha(0.0f);
+}
+
+} // namespace
+
 FadingCompositor::FadingCompositor(const CompositorStage& draw) : _draw(draw), _marks(draw, true) {}
 
 void FadingCompositor::relight(const Jobs& wanted) const {
@@ -15,13 +50,15 @@ void FadingCompositor::relight(const Jobs& wanted) const {
     const Jobs jobs = jobsOf(lights);
     if (jobs.empty()) return;
     const ScreenRect bounds = boundsOf(jobs);
-    const bool weighsAtOnce = lights.size() == 1 && lights.front().hard.empty();
-    if (weighsAtOnce) _draw.pass(bounds, [](ScreenPass& screen) { screen.setAlpha(1.0f); });
-    _marks.mark(lights, weighsAtOnce ? StencilMarks::Pixels::Weighed : StencilMarks::Pixels::Touched);
     Leaves leaves = leavesToReplay(_draw, jobs, bounds);
     const Leaves aside = setAside(leaves, jobs);
-    if (!aside.empty()) darkenAside(aside, lights, jobs);
-    mix(leaves, lights, jobs, weighsAtOnce && aside.empty());
+    const bool weighsAtOnce = lights.size() == 1 && lights.front().hard.empty() && aside.empty();
+    const LightShares shares(_draw, weighsAtOnce ? Jobs() : fadingOf(lights));
+    const Weights weights{lights, shares, weighsAtOnce};
+    if (weighsAtOnce) _draw.pass(bounds, [](ScreenPass& screen) { screen.setAlpha(1.0f); });
+    _marks.mark(lights, weighsAtOnce ? &markWeighed : markBy(shares));
+    if (!aside.empty()) darkenAside(aside, weights, jobs);
+    mix(leaves, weights, jobs);
     _draw.pass(bounds, [](ScreenPass& screen) { screen.setAlpha(1.0f); });
     _draw.clear(bitsOf(lights), bounds);
 }
@@ -47,15 +84,15 @@ FadingCompositor::Leaves FadingCompositor::setAside(Leaves& leaves, const Jobs& 
 }
 
 /// What cannot be mixed keeps its colour, times the factor where it lost light; no light bit stays set there.
-void FadingCompositor::darkenAside(const Leaves& aside, const MarkedLights& lights, const Jobs& jobs) const {
+void FadingCompositor::darkenAside(const Leaves& aside, const Weights& weights, const Jobs& jobs) const {
     const ScreenRect bounds = boundsOf(jobs);
     Leaves kept, darkened;
     const unsigned faded = _marks.fadedBit();
     for (const ReplayedLeaf& leaf : aside) (leaf.lost && faded ? darkened : kept).push_back(leaf);
-    if (!kept.empty()) writeWhereSeen(_draw, kept, {0, bitsOf(lights), _marks.scratchBit()}, bounds);
+    if (!kept.empty()) writeWhereSeen(_draw, kept, {0, bitsOf(weights.lights), _marks.scratchBit()}, bounds);
     if (darkened.empty()) return;
     writeWhereSeen(_draw, darkened, {faded, faded, faded}, bounds);
-    multiplyByFactor(lights, jobs.front()->dark, bounds);
+    multiplyByFactor(weights, jobs.front()->dark, bounds);
     _draw.clear(faded, wholeScreen); // leaves are not cut to the bounds
     if (!keptBy<StageVerdict>(_draw.stage).askToName()) return;
     for (const ReplayedLeaf& leaf : darkened)
@@ -67,20 +104,20 @@ void FadingCompositor::darkenAside(const Leaves& aside, const MarkedLights& ligh
                       "receiver.");
 }
 
-void FadingCompositor::multiplyByFactor(const MarkedLights& lights, float factor, const ScreenRect& bounds) const {
-    weigh(lights, 0, bounds);
+void FadingCompositor::multiplyByFactor(const Weights& weights, float factor, const ScreenRect& bounds) const {
+    weigh(weights, 0, bounds);
     _draw.pass(bounds, [&](ScreenPass& screen) {
         screen.stencilAny(_marks.fadedBit());
         screen.fadeAlpha(factor);
-        screen.takeStencil(_marks.fadedBit(), bitsOf(lights) | _marks.fadedBit());
+        screen.takeStencil(_marks.fadedBit(), bitsOf(weights.lights) | _marks.fadedBit());
         screen.multiplyColorByAlpha();
     });
 }
 
-/// @param weighed  alpha is already the share of the one light there is.
-void FadingCompositor::mix(const Leaves& leaves, const MarkedLights& lights, const Jobs& jobs, bool weighed) const {
+void FadingCompositor::mix(const Leaves& leaves, const Weights& weights, const Jobs& jobs) const {
+    const MarkedLights& lights = weights.lights;
     if (lights.size() > 1) {
-        weigh(lights, 0, boundsOf(jobs));
+        weigh(weights, 0, boundsOf(jobs));
         _draw.pass(boundsOf(jobs), [&](ScreenPass& screen) {
             screen.stencilAny(bitsOf(lights));
             screen.multiplyColorByAlpha();
@@ -89,7 +126,7 @@ void FadingCompositor::mix(const Leaves& leaves, const MarkedLights& lights, con
     for (unsigned lost = 1; lost < (1u << lights.size()); ++lost) {
         const ScreenRect bounds = boundsWithout(lights, lost);
         if (isEmpty(bounds)) continue;
-        if (!weighed) weigh(lights, lights.size() == 1 ? 0 : lost, bounds);
+        if (!weights.areInAlpha) weigh(weights, lights.size() == 1 ? 0 : lost, bounds);
         replay(leaves, lights, lost, bounds, jobs);
     }
 }
@@ -126,44 +163,25 @@ ScreenRect FadingCompositor::boundsWithout(const MarkedLights& lights, unsigned 
 }
 
 /// Alpha becomes the share of each pixel that sees all lights but those of `lost`.
-void FadingCompositor::weigh(const MarkedLights& lights, unsigned lost, const ScreenRect& bounds) const {
-    const TrueDepths depths(_draw, bounds);
+void FadingCompositor::weigh(const Weights& weights, unsigned lost, const ScreenRect& bounds) const {
     _draw.pass(bounds, [&](ScreenPass& screen) {
         screen.setAlpha(1.0f);
-        for (std::size_t i = 0; i < lights.size(); ++i) weighOne(lights[i], lost & (1u << i), screen);
+        for (std::size_t i = 0; i < weights.lights.size(); ++i)
+            weighOne(weights.lights[i], lost & (1u << i), weights.shares, screen);
     });
-}
-
-void FadingCompositor::weighOne(const MarkedLight& light, bool lost, ScreenPass& screen) const {
-    if (light.fading) {
-        screen.stencilEqual(light.fadingBit, light.bits(), 0);
-        multiplyShare(*light.fading, lost, screen);
-    }
-    if (lost)
-        screen.stencilEqual(0, light.bits(), 0);
-    else if (light.hardBit)
-        screen.stencilAny(light.hardBit);
-    if (lost || light.hardBit) screen.setAlpha(0.0f);
-}
-
-/// Cut to the pass's bounds, not to the job's own: outside those its bit is not set.
-void FadingCompositor::multiplyShare(const ShadowJob& job, bool blocked, ScreenPass& screen) const {
-    screen.ask(blocked ? ScreenPass::Want::Blocking : ScreenPass::Want::Arriving);
-    job.report(job.mark->draw(screen));
 }
 
 /// Multiplies alpha by the job's share.
 void FadingCompositor::addBlended(const ShadowJob& job, unsigned bit) const {
     const Leaves others = notOfLens(job, _draw.leaves);
-    if (job.fades() && !job.receiverNamed && others.empty())
-        return _marks.add(job, bit, true, StencilMarks::Pixels::Weighed);
-    _marks.add(job, bit, true, StencilMarks::Pixels::Touched);
+    if (job.fades() && !job.receiverNamed && others.empty()) return _marks.add(job, bit, true, &markWeighed);
+    const LightShares shares(_draw, job.fades() ? Jobs{&job} : Jobs());
+    _marks.add(job, bit, true, markBy(shares));
     writeWhereSeen(_draw, others, {0, bit, _marks.scratchBit()}, job.mark->screenBounds);
-    const TrueDepths depths(_draw, job.mark->screenBounds);
     _draw.pass(job.mark->screenBounds, [&](ScreenPass& screen) {
         screen.stencilAny(bit);
         if (job.fades())
-            multiplyShare(job, false, screen);
+            shares.multiplyAlpha(job, false, screen);
         else
             screen.setAlpha(0.0f);
     });

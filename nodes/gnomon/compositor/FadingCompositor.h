@@ -2,6 +2,7 @@
 #pragma once
 #include <gnomon/compositor/CompositorStage.h>
 #include <gnomon/compositor/LeafReplay.h>
+#include <gnomon/compositor/LightShares.h>
 #include <gnomon/compositor/StencilMarks.h>
 
 #include <vector>
@@ -24,18 +25,22 @@ public:
 
 private:
     using Leaves = std::vector<ReplayedLeaf>;
+    /// Lights, and what shares of them arrive.
+    struct Weights {
+        const MarkedLights& lights;
+        const LightShares& shares;
+        bool areInAlpha; ///< alpha is already the share of the one light there is.
+    };
 
     Leaves setAside(Leaves& leaves, const Jobs& jobs) const;
-    void darkenAside(const Leaves& aside, const MarkedLights& lights, const Jobs& jobs) const;
-    void multiplyByFactor(const MarkedLights& lights, float factor, const ScreenRect& bounds) const;
-    void mix(const Leaves& leaves, const MarkedLights& lights, const Jobs& jobs, bool weighed) const;
+    void darkenAside(const Leaves& aside, const Weights& weights, const Jobs& jobs) const;
+    void multiplyByFactor(const Weights& weights, float factor, const ScreenRect& bounds) const;
+    void mix(const Leaves& leaves, const Weights& weights, const Jobs& jobs) const;
     void replay(const Leaves& leaves, const MarkedLights& lights, unsigned lost, const ScreenRect& bounds,
                 const Jobs& jobs) const;
     ScreenRect boundsWithout(const MarkedLights& lights, unsigned lost) const;
     void addBlended(const ShadowJob& job, unsigned bit) const;
-    void weigh(const MarkedLights& lights, unsigned lost, const ScreenRect& bounds) const;
-    void weighOne(const MarkedLight& light, bool lost, ScreenPass& screen) const;
-    void multiplyShare(const ShadowJob& job, bool blocked, ScreenPass& screen) const;
+    void weigh(const Weights& weights, unsigned lost, const ScreenRect& bounds) const;
 
     const CompositorStage& _draw;
     const StencilMarks _marks;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/compositor/ShadowJob.h>
-#include <gnomon/gl/FrameCopies.h>
+#include <gnomon/gl/FrameColorCopy.h>
 
 #include <osg/State>
 #include <osg/VertexArrayState>

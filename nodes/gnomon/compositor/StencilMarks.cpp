@@ -195,22 +195,22 @@ bool StencilMarks::assignBits(MarkedLight& light, std::vector<unsigned>& unused)
     return true;
 }
 
-void StencilMarks::mark(const MarkedLights& lights, Pixels pixels) const {
+void StencilMarks::mark(const MarkedLights& lights, const MarkFading& fading) const {
     clearLeftovers(bitsOf(lights));
     for (const MarkedLight& light : lights) {
         for (const ShadowJob* job : light.hard) add(*job, light.hardBit, job == light.hard.front());
-        if (light.fading) add(*light.fading, light.fadingBit, true, pixels);
+        if (light.fading) add(*light.fading, light.fadingBit, true, fading);
     }
 }
 
 /// The first job of a light without a named receiver marks its bit directly; any other goes through the scratch bit.
-void StencilMarks::add(const ShadowJob& job, unsigned bit, bool fresh, Pixels pixels) const {
-    if (fresh && !job.receiverNamed) return addUngated(job, bit, pixels);
+void StencilMarks::add(const ShadowJob& job, unsigned bit, bool fresh, const MarkFading& fading) const {
+    if (fresh && !job.receiverNamed) return addUngated(job, bit, fading);
     if (!_scratch) {
         job.report(oneBitLeft);
         return;
     }
-    addUngated(job, _scratch, pixels);
+    addUngated(job, _scratch, fading);
     if (job.receiverNamed)
         gate(job, bit);
     else
@@ -218,12 +218,11 @@ void StencilMarks::add(const ShadowJob& job, unsigned bit, bool fresh, Pixels pi
     _draw.clear(_scratch, job.mark->screenBounds);
 }
 
-void StencilMarks::addUngated(const ShadowJob& job, unsigned bit, Pixels pixels) const {
+void StencilMarks::addUngated(const ShadowJob& job, unsigned bit, const MarkFading& fading) const {
     const TrueDepths depths(_draw, job.mark->screenBounds);
     _draw.pass(job.mark->screenBounds, [&](ScreenPass& screen) {
-        const bool touched = pixels != Pixels::Half && job.fades();
-        if (touched && pixels == Pixels::Weighed) screen.multiplyAlpha();
-        screen.ask(touched ? ScreenPass::Want::Touched : ScreenPass::Want::Blocked, bit);
+        if (fading && job.fades()) return fading(job, bit, screen);
+        screen.ask(ScreenPass::Want::Blocked, bit);
         job.report(job.mark->draw(screen));
     });
 }

@@ -3,6 +3,7 @@
 #include <gnomon/compositor/CompositorStage.h>
 #include <gnomon/compositor/ShadowJob.h>
 
+#include <functional>
 #include <vector>
 
 namespace gnomon {
@@ -66,12 +67,9 @@ std::size_t stencilBitsFor(const std::vector<ShadowJob>& jobs);
 /// Shares out the free stencil bits of a stage to lights, and draws the marks of jobs into them, each cut to its receiver.
 class StencilMarks {
 public:
-    /// Which pixels of a job that fades are marked.
-    enum class Pixels {
-        Half,    ///< those that less than half of the light reaches: a hard edge.
-        Touched, ///< those that not all of the light reaches.
-        Weighed  ///< the same, and alpha is multiplied by the share that does.
-    };
+    /// Sets a bit where not all of the light of a job that fades arrives. Where there is none, the edge is hard: those that
+    /// less than half of the light reaches are marked.
+    using MarkFading = std::function<void(const ShadowJob&, unsigned bit, ScreenPass&)>;
 
     /// @param draw   with one stencil bit at least; must outlive this.
     /// @param fades  jobs that fade have bits of their own; else their edges are hard.
@@ -87,12 +85,12 @@ public:
     /// Lights as far as there are bits for them, by their numbers; reports those that are left out.
     MarkedLights lightsOf(const Jobs& wanted) const;
     /// Draws all marks into their lights' bits, which nobody has used.
-    void mark(const MarkedLights& lights, Pixels pixels = Pixels::Half) const;
+    void mark(const MarkedLights& lights, const MarkFading& fading = {}) const;
     /// Adds a job's marks to those in `bit`.
     /// @param fresh  none are in it yet.
-    void add(const ShadowJob& job, unsigned bit, bool fresh, Pixels pixels = Pixels::Half) const;
+    void add(const ShadowJob& job, unsigned bit, bool fresh, const MarkFading& fading = {}) const;
     /// Into a bit that is 0, whatever the receiver.
-    void addUngated(const ShadowJob& job, unsigned bit, Pixels pixels = Pixels::Half) const;
+    void addUngated(const ShadowJob& job, unsigned bit, const MarkFading& fading = {}) const;
     /// Before marks: in this bit, and in those that add() takes.
     void clearLeftovers(unsigned bits) const { _draw.clearLeftovers(bits | _scratch | _faded); }
 

@@ -10,7 +10,7 @@
 #include <gnomon/compositor/ViewEffect.h>
 #include <gnomon/effects/SubgraphCull.h>
 #include <gnomon/geometry/ScreenBounds.h>
-#include <gnomon/gl/FrameCopies.h>
+#include <gnomon/gl/FrameColorCopy.h>
 
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>

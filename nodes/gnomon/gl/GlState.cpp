@@ -105,6 +105,14 @@ PixelRect pixelsInScissor(const osg::Viewport& viewport) {
     return {left, low, right - left, high - low};
 }
 
+PixelRect wholeQuads(const PixelRect& pixels, const osg::Viewport& viewport) {
+    const PixelRect all = pixelsOf(viewport);
+    const int endX = std::min((pixels.x + pixels.width + 1) & ~1, all.x + all.width),
+              endY = std::min((pixels.y + pixels.height + 1) & ~1, all.y + all.height),
+              x = std::max({pixels.x & ~1, all.x, 0}), y = std::max({pixels.y & ~1, all.y, 0});
+    return {x, y, endX - x, endY - y};
+}
+
 void addBlended(const osg::State& state, GLenum source, GLenum destination) {
     glEnable(GL_BLEND);
     glBlendFunc(source, destination);

@@ -73,6 +73,9 @@ void addBlended(const osg::State& state, GLenum source, GLenum destination);
 PixelRect pixelsInScissor(const osg::Viewport& viewport);
 /// Pixels of a viewport whose centres lie within bounds, and one more on either side.
 PixelRect pixelsWithin(const ScreenRect& bounds, const osg::Viewport& viewport);
+/// Whole quads of pixels, which OpenGL shades together, as far as they are in view. What is left of the window or below it is no
+/// pixel.
+PixelRect wholeQuads(const PixelRect& pixels, const osg::Viewport& viewport);
 
 /// Rectangle over the whole viewport; depth in normalised device coordinates, z = atCenter + x·slopeX + y·slopeY.
 void drawQuad(osg::State& state, double atCenter = 0.0, double slopeX = 0.0, double slopeY = 0.0);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
 #include <gnomon/MarkProgram.h>
-#include <gnomon/gl/FrameCopies.h>
+#include <gnomon/gl/FrameDepths.h>
 #include <gnomon/gl/ShaderProgram.h>
 
 #include <glm/matrix.hpp>
@@ -24,7 +24,7 @@ void main() {
     vec4 place = gnomon_frameFromPixel * vec4(gl_FragCoord.xy, e, 1.0);
     float arrives = e > 0.0 ? clamp(arrivesAt(place.xyz / place.w), 0.0, 1.0) : 1.0;
     if (arrives >= gnomon_wanted.x) discard;
-    gl_FragColor = vec4(vec3(mix(gnomon_wanted.z, 1.0, arrives)), mix(arrives, 1.0 - arrives, gnomon_wanted.y));
+    gl_FragColor = vec4(vec3(mix(gnomon_wanted.y, 1.0, arrives)), arrives);
 }
 )";
 
@@ -32,7 +32,7 @@ void main() {
 
 struct MarkProgram::Parts {
     osg::ref_ptr<osg::StateSet> program;
-    mutable FrameDepthCopy seen;
+    std::shared_ptr<FrameDepths> seen = FrameDepths::shared();
 };
 
 MarkProgram::MarkProgram(const std::string& arrives) : _parts(new Parts) {
@@ -47,7 +47,7 @@ std::string MarkProgram::draw(ScreenPass& pass, const osg::Matrixd& clipFromFram
     const osg::Viewport& viewport = *state.getCurrentViewport();
     const PixelRect pixels = pixelsInScissor(viewport);
     if (pixels.empty()) return "";
-    const FrameDepthCopy::Copy copy = _parts->seen.copy(state, pixels);
+    const FrameDepths::Copy copy = _parts->seen->copy(state, pixels);
     if (!copy.cause.empty()) return copy.cause;
     const osg::ref_ptr<osg::StateSet> set = new osg::StateSet(uniforms);
     set->merge(*_parts->program);
@@ -67,7 +67,7 @@ void MarkProgram::resizeGLObjectBuffers(unsigned maxSize) { _parts->program->res
 
 void MarkProgram::releaseGLObjects(osg::State* state) const {
     _parts->program->releaseGLObjects(state);
-    _parts->seen.release(state);
+    _parts->seen->release(state);
 }
 
 } // namespace gnomon

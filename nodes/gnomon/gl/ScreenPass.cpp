@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/ScreenPass.h>
+#include <gnomon/gl/FrameDepths.h>
 #include <gnomon/gl/GlState.h>
 
 #include <osg/GLExtensions>
@@ -133,6 +134,7 @@ void ScreenPass::writeFarDepth() {
     glDepthFunc(GL_ALWAYS);
     glDepthMask(GL_TRUE);
     drawQuad(1.0);
+    FrameDepths::forget(_state);
 }
 
 void ScreenPass::beginReplace() {
@@ -197,8 +199,8 @@ void ScreenPass::fadeAlpha(float factor) {
     drawAlpha(factor);
 }
 
-void ScreenPass::multiplyAlpha() {
-    addBlended(_state, GL_ZERO, GL_SRC_ALPHA);
+void ScreenPass::multiplyAlpha(bool byRest) {
+    addBlended(_state, GL_ZERO, byRest ? GL_ONE_MINUS_SRC_ALPHA : GL_SRC_ALPHA);
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_TRUE);
 }
 

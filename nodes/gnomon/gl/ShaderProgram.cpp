@@ -128,7 +128,7 @@ glm::dvec4 wantedOf(const ScreenPass& pass, bool fades) {
                          : want == Want::Touched ? allOfIt
                          : want == Want::Factor  ? (fades ? allOfIt : half)
                                                  : any;
-    return {below, want == Want::Blocking ? 1.0 : 0.0, pass.factor(), fades ? 1.0 : 0.0};
+    return {below, pass.factor(), fades ? 1.0 : 0.0, 0.0};
 }
 
 void setUniform(const osg::State& state, const char* name, const glm::dvec2& value) {

@@ -28,8 +28,8 @@ bool hasProgram(const osg::State& state);
 constexpr const char* noProgram =
     "the shader program cannot be built in this context. Use OpenGL 3.0 with GLSL 1.30, or later.";
 
-/// What a pass wants of a mark's program, as a uniform. x: fragments of pixels that less of the light than this reaches; y: 1 if
-/// their alpha is what does not arrive, else 0; z: what is left of a colour where nothing arrives; w: 1 if the mark fades.
+/// What a pass wants of a mark's program, as a uniform. x: fragments of pixels that less of the light than this reaches; y: what is
+/// left of a colour where nothing arrives; z: 1 if the mark fades.
 glm::dvec4 wantedOf(const ScreenPass& pass, bool fades);
 
 /// Uniforms of the program that was applied last.

@@ -19,23 +19,13 @@ namespace {
 constexpr unsigned seenUnit = 0, mapUnit = 1, rawUnit = 2, blocksUnit = 3;
 constexpr double reachedOver = 2.0; // texels at a tile's sides that a comparison may reach over
 
-/// Whole quads of pixels, which OpenGL shades together, as far as they are in view. What is left of the window or below it is no
-/// pixel.
-PixelRect wholeQuads(const PixelRect& pixels, const osg::Viewport& viewport) {
-    const PixelRect all = pixelsOf(viewport);
-    const int endX = std::min((pixels.x + pixels.width + 1) & ~1, all.x + all.width),
-              endY = std::min((pixels.y + pixels.height + 1) & ~1, all.y + all.height),
-              x = std::max({pixels.x & ~1, all.x, 0}), y = std::max({pixels.y & ~1, all.y, 0});
-    return {x, y, endX - x, endY - y};
-}
-
 glm::dvec4 placeOf(const MapPicture::Tile& tile, int texels) {
     return {glm::dvec2(tile.corner), texels, reachedOver / texels};
 }
 
 glm::dvec4 errorOf(const MapError& error, double last) { return {error.depth, error.texels, error.steepest, last}; }
 
-void setSeen(osg::State& state, const FrameDepthCopy::Copy& copy, const MapConstants& constants) {
+void setSeen(osg::State& state, const FrameDepths::Copy& copy, const MapConstants& constants) {
     state.applyTextureAttribute(seenUnit, copy.texture);
     setUniform(state, "seen", int(seenUnit));
     setUniform(state, "constants", constants.values());
@@ -55,7 +45,7 @@ public:
         const osg::Viewport& viewport = *state.getCurrentViewport();
         const PixelRect pixels = pixelsInScissor(viewport);
         if (pixels.empty()) return "";
-        const FrameDepthCopy::Copy copy = _programs->seen.copy(state, pixels);
+        const FrameDepths::Copy copy = _programs->seen->copy(state, pixels);
         if (!copy.cause.empty()) return copy.cause;
         state.apply(_programs->cone);
         if (!hasProgram(state)) return noProgram;
@@ -130,7 +120,7 @@ std::string MapLookup::draw(ScreenPass& pass) const {
     const PixelRect pixels = wholeQuads(marked, viewport);
     const std::string cause = _maps.show(pass.renderInfo());
     if (!cause.empty()) return cause;
-    FrameDepthCopy::Copy copy = _maps.programs->seen.copy(state, pixels);
+    FrameDepths::Copy copy = _maps.programs->seen->copy(state, pixels);
     if (!copy.cause.empty()) return copy.cause;
     copy.error.x *= 1.0 + _places.pushedBack.y;
     copy.error.y += _places.pushedBack.x;
@@ -178,7 +168,7 @@ MapUse MapLookup::use(bool shows) const {
 
 /// The maps and the frame's depths, under the names of the shaders.
 /// @param wanted  see map.frag.
-MapConstants MapLookup::constantsOf(const osg::State& state, const FrameDepthCopy::Copy& copy, const glm::dvec4& wanted,
+MapConstants MapLookup::constantsOf(const osg::State& state, const FrameDepths::Copy& copy, const glm::dvec4& wanted,
                                     const PixelRect& pixels) const {
     const glm::dmat4 sceneFromPixel = glm::inverse(_places.clipFromScene) * clipFromPixel(*state.getCurrentViewport());
     MapConstants constants;
@@ -222,8 +212,8 @@ void MapLookup::drawDebugView(ScreenPass& pass, int before) const {
     const bool ofMaps = _options.view == ShadowMapOptions::MAP;
     if (!ofMaps && before > 0) return;
     if (!_maps.show(pass.renderInfo()).empty()) return; // which marking has said
-    FrameDepthCopy::Copy copy;
-    if (!ofMaps) copy = _maps.programs->seen.copy(state, pixelsInScissor(*state.getCurrentViewport()));
+    FrameDepths::Copy copy;
+    if (!ofMaps) copy = _maps.programs->seen->copy(state, pixelsInScissor(*state.getCurrentViewport()));
     if (!copy.cause.empty()) return; // the same
     const MapUse showing = use(true);
     const MapConstants constants = constantsOf(state, copy, {}, {});

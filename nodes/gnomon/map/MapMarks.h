@@ -3,7 +3,7 @@
 #include <gnomon/ScreenPass.h>
 #include <gnomon/ShadowMapOptions.h>
 #include <gnomon/compositor/ShadowJob.h>
-#include <gnomon/gl/FrameCopies.h>
+#include <gnomon/gl/FrameDepths.h>
 #include <gnomon/map/DepthMap.h>
 #include <gnomon/map/MapPrograms.h>
 
@@ -53,7 +53,7 @@ protected:
 
 private:
     MapUse use(bool shows) const;
-    MapConstants constantsOf(const osg::State& state, const FrameDepthCopy::Copy& copy, const glm::dvec4& wanted,
+    MapConstants constantsOf(const osg::State& state, const FrameDepths::Copy& copy, const glm::dvec4& wanted,
                              const PixelRect& pixels) const;
     glm::dvec4 drawnErrorOf(const osg::State& state, const glm::dmat4& sceneFromPixel) const;
     void drawPicture(osg::State& state, ScreenPass& pass, int before) const;

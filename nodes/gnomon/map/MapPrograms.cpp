@@ -118,7 +118,7 @@ void MapPrograms::resizeGLObjectBuffers(unsigned maxSize) {
 }
 
 void MapPrograms::release(osg::State* state) {
-    seen.release(state);
+    seen->release(state);
     for (const auto& set : {caster, casterByLamp, smoothCaster, cutout, blocks, cone}) set->releaseGLObjects(state);
     Lock lock(_mutex);
     for (const auto& [defines, set] : _programs) set->releaseGLObjects(state);

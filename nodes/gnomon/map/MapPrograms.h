@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/ShadowMapOptions.h>
-#include <gnomon/gl/FrameCopies.h>
+#include <gnomon/gl/FrameDepths.h>
 
 #include <OpenThreads/Mutex>
 #include <glm/mat4x4.hpp>
@@ -57,7 +57,7 @@ class MapPrograms : public osg::Referenced {
 public:
     /// Casters, of a sun and of a lamp; those with offsets, of either; those that a texture cuts out; see DepthMap::updateBlocks(); all but a spot's cone.
     const osg::ref_ptr<osg::StateSet> caster, casterByLamp, smoothCaster, cutout, blocks, cone;
-    FrameDepthCopy seen;
+    const std::shared_ptr<FrameDepths> seen = FrameDepths::shared();
     std::atomic<unsigned> passes{0}; ///< maps drawn so far.
 
     MapPrograms();

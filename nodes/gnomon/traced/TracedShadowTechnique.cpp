@@ -10,7 +10,7 @@
 #include <gnomon/casters/RaySceneCache.h>
 #include <gnomon/compositor/ShadowJob.h>
 #include <gnomon/geometry/DrawnError.h>
-#include <gnomon/gl/FrameCopies.h>
+#include <gnomon/gl/FrameDepths.h>
 #include <gnomon/gl/SavedFramebuffers.h>
 #include <gnomon/group/PerView.h>
 #include <gnomon/group/SceneFrame.h>

@@ -14,9 +14,9 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 
 namespace gnomon {
 
@@ -66,11 +66,11 @@ private:
     std::map<unsigned, Buffers> _buffers; ///< by context.
 };
 
-/// A frame's depths as a texture, copied on the GPU; one a context, kept from frame to frame, and another one where depths
-/// are of another format.
+/// A frame's depths as a texture, copied on the GPU for marks that look at them; one a context, kept from frame to frame, and
+/// another one where depths are of another format. While no depth is written, one copy serves all marks.
 ///
 /// Threads one a context.
-class FrameDepthCopy {
+class FrameDepths {
 public:
     /// What was copied, and how far off it may be: see depthBufferShadow().
     struct Copy {
@@ -79,56 +79,49 @@ public:
         osg::ref_ptr<osg::Texture2D> texture{}; ///< until the next copy in this context.
         glm::dvec2 rows{0.0, 1.0};              ///< pixels of row y are in the texture's row rows.x + y rows.y.
     };
-    /// Copies these pixels of the framebuffer that is drawn to, to the same columns of the texture.
+
+    /// Those that all techniques share, as long as any has them.
+    static std::shared_ptr<FrameDepths> shared();
+    /// What has been copied before stands no more. @param pixels  of all marks that will look: each copy holds these.
+    static void begin(const osg::State& state, const PixelRect& pixels);
+    /// Copies these pixels now, for marks that are drawn when something else is drawn to.
+    static void hold(osg::State& state, const PixelRect& pixels);
+    /// What has been copied stands no more: depth has been written.
+    static void forget(const osg::State& state);
+
+    /// Depths of these pixels of the framebuffer that is drawn to, in the same columns of the texture.
     Copy copy(osg::State& state, const PixelRect& pixels);
 
     /// Lets go of what a context holds, of null of what all of them do.
     void release(osg::State* state);
 
 private:
-    /// Of one context.
+    /// Of one context, with or without stencil.
     struct Target {
         osg::ref_ptr<osg::Texture2D> texture;
         bool packed = false;                                   ///< with stencil, as windows have it.
         osg::ref_ptr<const osg::Texture::TextureObject> tried; ///< to be drawn to.
         bool mirrors = true;                                   ///< false once OpenGL has refused to copy so.
     };
-    Target& targetFor(const osg::State& state, const PixelRect& pixels, bool packed);
+    /// Of one context.
+    struct Kept {
+        Target packed, plain;
+        PixelRect wanted; ///< see begin().
+        PixelRect held;   ///< that the copy is of: none once it is forgotten.
+        Copy copy;
+    };
+    Kept& of(const osg::State& state);
+    Copy make(osg::State& state, Kept& kept, const PixelRect& pixels);
+    static void fit(Target& target, const osg::State& state, const PixelRect& pixels);
     static glm::dvec2 transfer(osg::State& state, Target& target, const PixelRect& pixels);
     static bool mirror(osg::State& state, Target& target, const PixelRect& pixels);
 
     ResolvedDepth _resolved;
     OpenThreads::Mutex _mutex;
-    std::map<std::pair<unsigned, bool>, Target> _targets; ///< by context, and whether packed.
+    std::map<unsigned, Kept> _kept; ///< by context.
 };
 
 /// From window coordinates x and y, and 1 - depth, of which floats are fine far away.
 glm::dmat4 clipFromPixel(const osg::Viewport& viewport);
-
-/// Keeps what a viewport shows, in a texture a context, and mixes it with what is drawn there later.
-///
-/// Threads one a context.
-class FrameColorCopy {
-public:
-    FrameColorCopy() = default;
-    FrameColorCopy(const FrameColorCopy&) = delete;
-    FrameColorCopy& operator=(const FrameColorCopy&) = delete;
-
-    /// Copies what the scissor box holds of the viewport. Called within a CleanState.
-    /// @return false if OpenGL cannot read the framebuffer that is bound: an object of several samples.
-    bool save(osg::State& state, const osg::Viewport& viewport);
-    /// Draws the copy over the viewport, texel on pixel; stencil, scissor and blending are the caller's.
-    void draw(osg::State& state);
-
-    void resizeGLObjectBuffers(unsigned maxSize);
-    /// Lets go of what a context holds, of null of what all of them do.
-    void release(osg::State* state);
-
-private:
-    osg::Texture2D& of(unsigned context);
-
-    OpenThreads::Mutex _mutex;
-    std::map<unsigned, osg::ref_ptr<osg::Texture2D>> _textures; ///< by context.
-};
 
 } // namespace gnomon

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/gl/FrameCopies.h>
+#include <gnomon/gl/FrameDepths.h>
 #include <gnomon/gl/SavedFramebuffers.h>
 #include <gnomon/gl/WorkFramebuffer.h>
 
@@ -7,7 +7,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <osg/ContextData>
 #include <osg/FrameBufferObject>
-#include <osg/TexEnv>
 
 #include <algorithm>
 #include <cmath>
@@ -100,19 +99,23 @@ void blitMirrored(const osg::GLExtensions& gl, const PixelRect& pixels, GLint he
 constexpr double stepsOff = 4.0; // as depthBufferShadow()
 constexpr double snapsOff = 2.0;
 
-GLint valueOf(GLenum what) {
-    GLint value = 0;
-    glGetIntegerv(what, &value);
-    return value;
+PixelRect united(const PixelRect& a, const PixelRect& b) {
+    if (a.empty() || b.empty()) return a.empty() ? b : a;
+    const int x = std::min(a.x, b.x), y = std::min(a.y, b.y);
+    return {x, y, std::max(a.x + a.width, b.x + b.width) - x, std::max(a.y + a.height, b.y + b.height) - y};
 }
 
-osg::ref_ptr<osg::Texture2D> makeTexture() {
-    osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D;
-    texture->setInternalFormat(valueOf(GL_RED_BITS) > 8 ? GL_RGBA32F_ARB : GL_RGBA8);
-    texture->setFilter(osg::Texture::MIN_FILTER, osg::Texture::NEAREST);
-    texture->setFilter(osg::Texture::MAG_FILTER, osg::Texture::NEAREST);
-    texture->setResizeNonPowerOfTwoHint(false);
-    return texture;
+bool holds(const PixelRect& all, const PixelRect& part) {
+    return part.x >= all.x && part.y >= all.y && part.x + part.width <= all.x + all.width &&
+           part.y + part.height <= all.y + all.height;
+}
+
+OpenThreads::Mutex sharedMutex;
+std::weak_ptr<FrameDepths> sharedDepths;
+
+std::shared_ptr<FrameDepths> sharedIfAny() {
+    Lock lock(sharedMutex);
+    return sharedDepths.lock();
 }
 
 } // namespace
@@ -186,7 +189,45 @@ void ResolvedDepth::letGo(unsigned context, const Buffers& buffers) {
     osg::get<osg::GLRenderBufferManager>(context)->scheduleGLObjectForDeletion(buffers.depth);
 }
 
-FrameDepthCopy::Copy FrameDepthCopy::copy(osg::State& state, const PixelRect& pixels) {
+std::shared_ptr<FrameDepths> FrameDepths::shared() {
+    Lock lock(sharedMutex);
+    std::shared_ptr<FrameDepths> depths = sharedDepths.lock();
+    if (!depths) sharedDepths = depths = std::make_shared<FrameDepths>();
+    return depths;
+}
+
+void FrameDepths::begin(const osg::State& state, const PixelRect& pixels) {
+    const std::shared_ptr<FrameDepths> depths = sharedIfAny();
+    if (!depths) return;
+    Kept& kept = depths->of(state);
+    kept.held = {};
+    kept.wanted = pixels;
+}
+
+void FrameDepths::hold(osg::State& state, const PixelRect& pixels) {
+    if (const std::shared_ptr<FrameDepths> depths = sharedIfAny()) depths->copy(state, pixels);
+}
+
+void FrameDepths::forget(const osg::State& state) {
+    if (const std::shared_ptr<FrameDepths> depths = sharedIfAny()) depths->of(state).held = {};
+}
+
+FrameDepths::Kept& FrameDepths::of(const osg::State& state) {
+    Lock lock(_mutex);
+    return _kept[state.getContextID()];
+}
+
+FrameDepths::Copy FrameDepths::copy(osg::State& state, const PixelRect& pixels) {
+    Kept& kept = of(state);
+    if (kept.held.empty() || !holds(kept.held, pixels)) {
+        const PixelRect all = united(pixels, kept.wanted);
+        kept.copy = make(state, kept, all);
+        kept.held = kept.copy.cause.empty() ? all : PixelRect();
+    }
+    return kept.copy;
+}
+
+FrameDepths::Copy FrameDepths::make(osg::State& state, Kept& kept, const PixelRect& pixels) {
     Copy result;
     const GLint bits = glInteger(GL_DEPTH_BITS);
     if (bits == 0) return {noDepth};
@@ -194,7 +235,9 @@ FrameDepthCopy::Copy FrameDepthCopy::copy(osg::State& state, const PixelRect& pi
     result.error.y = snapsOff * std::ldexp(1.0, -std::clamp(glInteger(GL_SUBPIXEL_BITS), 4, 16));
     const PlainPixels plain(state);
     const bool resolves = ResolvedDepth::isNeeded(state), packed = !resolves && isPacked();
-    Target& target = targetFor(state, pixels, packed);
+    Target& target = packed ? kept.packed : kept.plain;
+    target.packed = packed;
+    fit(target, state, pixels);
     result.texture = target.texture;
     const auto read = [&] { result.rows = transfer(state, target, pixels); };
     if (resolves) {
@@ -210,7 +253,7 @@ FrameDepthCopy::Copy FrameDepthCopy::copy(osg::State& state, const PixelRect& pi
 }
 
 /// @return Copy::rows.
-glm::dvec2 FrameDepthCopy::transfer(osg::State& state, Target& target, const PixelRect& pixels) {
+glm::dvec2 FrameDepths::transfer(osg::State& state, Target& target, const PixelRect& pixels) {
     state.applyTextureAttribute(0, target.texture);
     if (target.mirrors && mirror(state, target, pixels)) return {target.texture->getTextureHeight() - 1, -1};
     glCopyTexSubImage2D(GL_TEXTURE_2D, 0, pixels.x, pixels.y, pixels.x, pixels.y, pixels.width, pixels.height);
@@ -220,7 +263,7 @@ glm::dvec2 FrameDepthCopy::transfer(osg::State& state, Target& target, const Pix
 /// Rows of Mesa's windows go from the top, a texture's from the bottom: so mirrored, memory is copied and nothing drawn.
 /// @return false if they do not, or pixels have several samples, or that is not possible: formats can differ though they have as many
 ///         bits.
-bool FrameDepthCopy::mirror(osg::State& state, Target& target, const PixelRect& pixels) {
+bool FrameDepths::mirror(osg::State& state, Target& target, const PixelRect& pixels) {
     const auto& gl = *state.get<osg::GLExtensions>();
     const bool sameBits = target.packed || glInteger(GL_DEPTH_BITS) == 24;
     if (!gl.glBlitFramebuffer || !sameBits || glInteger(GL_SAMPLES) > 0 || !isTopDown(state)) return false;
@@ -240,83 +283,26 @@ bool FrameDepthCopy::mirror(osg::State& state, Target& target, const PixelRect& 
     return target.mirrors;
 }
 
-FrameDepthCopy::Target& FrameDepthCopy::targetFor(const osg::State& state, const PixelRect& pixels, bool packed) {
+void FrameDepths::fit(Target& target, const osg::State& state, const PixelRect& pixels) {
     const PixelRect all = pixelsOf(*state.getCurrentViewport());
-    Lock lock(_mutex);
-    Target& target = _targets[{state.getContextID(), packed}];
-    target.packed = packed;
     osg::ref_ptr<osg::Texture2D>& texture = target.texture;
-    if (!texture) texture = depthTexture(packed);
+    if (!texture) texture = depthTexture(target.packed);
     // As the viewport, not as the pixels: these grow with a shadow that moves, and each time another texture would be made.
     const int width = std::max({texture->getTextureWidth(), pixels.x + pixels.width, all.x + all.width});
     const int height = std::max({texture->getTextureHeight(), pixels.y + pixels.height, all.y + all.height});
-    if (width != texture->getTextureWidth() || height != texture->getTextureHeight()) {
-        texture->setTextureSize(width, height);
-        texture->dirtyTextureObject();
-    }
-    return target;
+    if (width == texture->getTextureWidth() && height == texture->getTextureHeight()) return;
+    texture->setTextureSize(width, height);
+    texture->dirtyTextureObject();
 }
 
-void FrameDepthCopy::release(osg::State* state) {
+void FrameDepths::release(osg::State* state) {
     _resolved.release(state);
     Lock lock(_mutex);
-    for (auto entry = _targets.begin(); entry != _targets.end();) {
-        const bool meant = !state || state->getContextID() == entry->first.first;
-        if (meant) entry->second.texture->releaseGLObjects(state);
-        entry = meant ? _targets.erase(entry) : std::next(entry);
-    }
-}
-
-bool FrameColorCopy::save(osg::State& state, const osg::Viewport& viewport) {
-    const bool isObject = valueOf(GL_FRAMEBUFFER_BINDING_EXT) != 0;
-    if (isObject && valueOf(GL_SAMPLE_BUFFERS) > 0) return false;
-    state.setActiveTextureUnit(0);
-    osg::Texture2D& texture = of(state.getContextID());
-    const PixelRect all = pixelsOf(viewport);
-    GLint box[4];
-    glGetIntegerv(GL_SCISSOR_BOX, box);
-    if (texture.getTextureWidth() == all.width && texture.getTextureHeight() == all.height)
-        texture.copyTexSubImage2D(state, box[0] - all.x, box[1] - all.y, box[0], box[1], box[2], box[3]);
-    else
-        texture.copyTexImage2D(state, all.x, all.y, all.width, all.height);
-    return true;
-}
-
-void FrameColorCopy::draw(osg::State& state) {
-    const osg::ref_ptr<osg::StateSet> set = new osg::StateSet;
-    set->setTextureAttributeAndModes(0, &of(state.getContextID()));
-    set->setTextureAttribute(0, new osg::TexEnv(osg::TexEnv::REPLACE));
-    state.apply(set);
-    state.applyProjectionMatrix(nullptr);
-    state.applyModelViewMatrix(nullptr);
-    glBegin(GL_TRIANGLE_STRIP);
-    for (const int y : {0, 1})
-        for (const int x : {0, 1}) {
-            glTexCoord2i(x, y);
-            glVertex2i(2 * x - 1, 2 * y - 1);
-        }
-    glEnd();
-    state.apply();
-}
-
-osg::Texture2D& FrameColorCopy::of(unsigned context) {
-    Lock lock(_mutex);
-    osg::ref_ptr<osg::Texture2D>& texture = _textures[context];
-    if (!texture) texture = makeTexture();
-    return *texture;
-}
-
-void FrameColorCopy::resizeGLObjectBuffers(unsigned maxSize) {
-    Lock lock(_mutex);
-    for (const auto& entry : _textures) entry.second->resizeGLObjectBuffers(maxSize);
-}
-
-void FrameColorCopy::release(osg::State* state) {
-    Lock lock(_mutex);
-    for (auto entry = _textures.begin(); entry != _textures.end();) {
+    for (auto entry = _kept.begin(); entry != _kept.end();) {
         const bool meant = !state || state->getContextID() == entry->first;
-        if (meant) entry->second->releaseGLObjects(state);
-        entry = meant ? _textures.erase(entry) : std::next(entry);
+        for (const Target& target : {entry->second.packed, entry->second.plain})
+            if (meant && target.texture) target.texture->releaseGLObjects(state);
+        entry = meant ? _kept.erase(entry) : std::next(entry);
     }
 }
 

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/compositor/LightShares.h>
+#include <gnomon/gl/FrameDepths.h>
+#include <gnomon/gl/SavedFramebuffers.h>
+
+#include <osg/ContextData>
+
+#include <algorithm>
+
+namespace gnomon {
+namespace {
+
+/// Leaves it to osg::State to bind what it needs next.
+void bindTexture(osg::State& state, GLuint texture) {
+    state.setActiveTextureUnit(0);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    state.haveAppliedTextureAttribute(0, osg::StateAttribute::TEXTURE);
+}
+
+} // namespace
+
+void ShareTextures::fit(osg::State& state, std::size_t count, GLsizei width, GLsizei height) {
+    if (_names.size() >= count && _width >= width && _height >= height) return;
+    _width = std::max(_width, width);
+    _height = std::max(_height, height);
+    _names.resize(std::max(_names.size(), count), 0);
+    for (GLuint& name : _names) {
+        if (!name) glGenTextures(1, &name);
+        bindTexture(state, name);
+        for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+            glTexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, _width, _height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+    }
+}
+
+void ShareTextures::deleteAllGLObjects() {
+    glDeleteTextures(static_cast<GLsizei>(_names.size()), _names.data());
+    discardAllGLObjects();
+}
+
+void ShareTextures::discardAllGLObjects() {
+    _names.clear();
+    _width = _height = 0;
+}
+
+LightShares::LightShares(const CompositorStage& draw, const Jobs& fading)
+    : _draw(draw), _jobs(fading), _textures(*osg::get<ShareTextures>(draw.state.getContextID())) {
+    const PixelRect all = pixelsOf(*draw.stage.getViewport());
+    _draw.pass(wholeScreen,
+               [&](ScreenPass&) { _textures.fit(draw.state, _jobs.size(), all.x + all.width, all.y + all.height); });
+    for (std::size_t i = 0; i < _jobs.size(); ++i) look(*_jobs[i], _textures[i]);
+}
+
+/// Depths are copied before the frame is no more what is drawn to.
+void LightShares::look(const ShadowJob& job, GLuint texture) const {
+    const TrueDepths depths(_draw, job.mark->screenBounds);
+    _draw.pass(job.mark->screenBounds, [&](ScreenPass& screen) {
+        const osg::Viewport& viewport = *_draw.stage.getViewport();
+        const PixelRect pixels = pixelsInScissor(viewport);
+        if (pixels.empty()) return;
+        FrameDepths::hold(screen.state(), wholeQuads(pixels, viewport));
+        const auto& gl = *_draw.state.get<osg::GLExtensions>();
+        const ScratchFramebuffer framebuffer(gl);
+        gl.glFramebufferTexture2D(GL_FRAMEBUFFER_EXT, GL_COLOR_ATTACHMENT0_EXT, GL_TEXTURE_2D, texture, 0);
+        screen.setAlpha(1.0f);
+        screen.ask(ScreenPass::Want::Arriving);
+        job.report(job.mark->draw(screen));
+    });
+}
+
+void LightShares::mark(const ShadowJob& job, unsigned bit, ScreenPass& screen) const {
+    screen.stencilEqual(bit, 0, bit);
+    glEnable(GL_ALPHA_TEST);
+    glAlphaFunc(GL_LESS, 1.0f);
+    screen.testDepth(GL_GREATER);
+    drawTexture(job, screen);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_ALPHA_TEST);
+}
+
+void LightShares::multiplyAlpha(const ShadowJob& job, bool blocked, ScreenPass& screen) const {
+    screen.multiplyAlpha(blocked);
+    drawTexture(job, screen);
+}
+
+/// At the far plane, texel on pixel.
+void LightShares::drawTexture(const ShadowJob& job, ScreenPass& screen) const {
+    const auto i = static_cast<std::size_t>(std::find(_jobs.begin(), _jobs.end(), &job) - _jobs.begin());
+    osg::State& state = screen.state();
+    bindTexture(state, _textures[i]);
+    glEnable(GL_TEXTURE_2D);
+    glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_REPLACE);
+    state.applyProjectionMatrix(nullptr);
+    state.applyModelViewMatrix(nullptr);
+    const PixelRect all = pixelsOf(*_draw.stage.getViewport());
+    glBegin(GL_TRIANGLE_STRIP);
+    for (const int y : {0, 1})
+        for (const int x : {0, 1}) {
+            glTexCoord2d(double(all.x + x * all.width) / _textures.width(),
+                         double(all.y + y * all.height) / _textures.height());
+            glVertex3i(2 * x - 1, 2 * y - 1, 1);
+        }
+    glEnd();
+    glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_MODULATE);
+    glDisable(GL_TEXTURE_2D);
+    state.haveAppliedTextureAttribute(0, osg::StateAttribute::TEXENV);
+    state.haveAppliedTextureMode(0, GL_TEXTURE_2D, osg::StateAttribute::OFF);
+}
+
+} // namespace gnomon

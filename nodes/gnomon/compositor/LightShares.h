@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/compositor/CompositorStage.h>
+#include <gnomon/compositor/StencilMarks.h>
+
+#include <osg/GLObjects>
+
+#include <vector>
+
+namespace gnomon {
+
+/// The textures of a context's LightShares, kept from frame to frame and for as long as the context lives.
+///
+/// Threads one a context.
+class ShareTextures : public osg::GraphicsObjectManager {
+public:
+    explicit ShareTextures(unsigned context) : osg::GraphicsObjectManager("gnomon::ShareTextures", context) {}
+
+    /// So many, at least of that size.
+    void fit(osg::State& state, std::size_t count, GLsizei width, GLsizei height);
+    GLuint operator[](std::size_t i) const { return _names[i]; }
+    GLsizei width() const { return _width; }
+    GLsizei height() const { return _height; }
+
+    bool empty() const { return _names.empty(); }
+
+    void flushDeletedGLObjects(double, double&) override {}
+    void flushAllDeletedGLObjects() override {}
+    void deleteAllGLObjects() override;
+    void discardAllGLObjects() override;
+
+protected:
+    ~ShareTextures() override = default;
+
+private:
+    std::vector<GLuint> _names;
+    GLsizei _width = 0, _height = 0;
+};
+
+/// What share of its light arrives by each of several jobs that fade, a pixel one, whatever its samples: looked up once, into
+/// textures of the kit's own, however often it is asked for. In them no depth stands, and all of the light arrives where
+/// nothing is.
+///
+/// Needs framebuffer objects.
+class LightShares {
+public:
+    /// Draws the marks. @param draw  must outlive this, as must the jobs.
+    LightShares(const CompositorStage& draw, const Jobs& fading);
+
+    /// Sets `bit` where not all of the light arrives and something stands.
+    void mark(const ShadowJob& job, unsigned bit, ScreenPass& screen) const;
+    /// Multiplies alpha by the share that arrives, or by the one that does not.
+    void multiplyAlpha(const ShadowJob& job, bool blocked, ScreenPass& screen) const;
+
+private:
+    void look(const ShadowJob& job, GLuint texture) const;
+    void drawTexture(const ShadowJob& job, ScreenPass& screen) const;
+
+    const CompositorStage& _draw;
+    const Jobs _jobs;
+    ShareTextures& _textures;
+};
+
+} // namespace gnomon
