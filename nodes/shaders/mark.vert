@@ -34,7 +34,7 @@ void main() {
     // As terminatorOffset(), but twice as far: a map compares by texels, and what is turned away two texels further in.
     vec3 towards = light.xyz - light.w * gl_Vertex.xyz;
     towards /= max(length(towards), 1e-30);
-    float grazed = clamp(2.5 - 2.0 * abs(dot(gl_MultiTexCoord0.xyz, towards)), 0.0, 1.0);
+    float grazed = clamp(3.0 - 2.0 * abs(dot(gl_MultiTexCoord0.xyz, towards)), 0.0, 1.0);
     gl_Position = clipFromVertex * vec4(gl_Vertex.xyz - 2.0 * gl_MultiTexCoord0.w * grazed * towards, 1.0);
 #else
     gl_Position = clipFromVertex * gl_Vertex;

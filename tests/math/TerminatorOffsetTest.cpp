@@ -70,10 +70,10 @@ TEST(TerminatorOffsets, ArePartOfThemWhereTheLightGrazesAndNoneElsewhere) {
     const glm::vec4 offset(0.0f, 0.0f, 1.0f / 0.2f, 3.0f); // turns by 0.2
     const auto at = [&](double sine) { return terminatorOffset(offset, {std::sqrt(1.0 - sine * sine), 0.0, sine}); };
     EXPECT_NEAR(at(0.0), 3.0, 1e-6);
-    EXPECT_NEAR(at(0.149), 3.0, 1e-6);
-    EXPECT_NEAR(at(-0.149), 3.0, 1e-6);
-    EXPECT_NEAR(at(0.2), 1.5, 1e-6);
-    EXPECT_EQ(at(0.251), 0.0);
+    EXPECT_NEAR(at(0.199), 3.0, 1e-6);
+    EXPECT_NEAR(at(-0.199), 3.0, 1e-6);
+    EXPECT_NEAR(at(0.25), 1.5, 1e-6);
+    EXPECT_EQ(at(0.301), 0.0);
     EXPECT_EQ(at(-1.0), 0.0);
 }
 

@@ -71,8 +71,11 @@ constexpr int stepOfMap = 12; // which decides by texels
 } // namespace
 
 TEST(Terminator, ConvexSmoothBodiesAreNoDarkerThanWithoutShadows) {
-    const std::pair<const char*, osg::ref_ptr<osg::Node>> bodies[] = {
-        {"ball", ball()}, {"ball of many facets", ball(2.5f)}, {"egg", egg()}, {"drum", drum()}};
+    const std::pair<const char*, osg::ref_ptr<osg::Node>> bodies[] = {{"ball", ball()},
+                                                                      {"ball of few facets", ball(0.35f)},
+                                                                      {"ball of many facets", ball(2.5f)},
+                                                                      {"egg", egg()},
+                                                                      {"drum", drum()}};
     for (const auto& [name, body] : bodies)
         for (const osg::Vec4d& light : {suns[0], suns[1], suns[2], lamp})
             for (int from = 0; from < 4; ++from) {

@@ -35,11 +35,11 @@ namespace gnomon {
 std::vector<glm::vec4> terminatorOffsets(const std::vector<glm::dvec3>& positions,
                                          const std::vector<glm::vec3>& normals, const std::vector<unsigned>& corners);
 
-/// How far a vertex moves, in the mesh's unit: all the way where the light grazes it to three
-/// quarters of a turn, not at all beyond five.
+/// How far a vertex moves, in the mesh's unit: all the way where the light grazes it to a
+/// whole turn, not at all beyond one and a half.
 /// @param towards  unit vector to the light.
 inline double terminatorOffset(const glm::vec4& offset, const glm::dvec3& towards) {
-    return double(offset.w) * glm::clamp(2.5 - 2.0 * std::abs(glm::dot(glm::dvec3(offset), towards)), 0.0, 1.0);
+    return double(offset.w) * glm::clamp(3.0 - 2.0 * std::abs(glm::dot(glm::dvec3(offset), towards)), 0.0, 1.0);
 }
 
 } // namespace gnomon
