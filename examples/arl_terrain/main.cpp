@@ -81,7 +81,7 @@ public:
             "sun at " + std::to_string(minutes / 60) + (minutes % 60 < 10 ? ":0" : ":") + std::to_string(minutes % 60) +
                 ": azimuth " + whole(sun.azimuth) + ", elevation " + whole(sun.elevation) +
                 " degrees (j: earlier, k: later)"};
-        for (const std::string& cause : _town.setup().diagnose()) lines.push_back(cause);
+        for (const std::string& cause : _town.setup().causes()) lines.push_back(cause);
         return lines;
     }
 

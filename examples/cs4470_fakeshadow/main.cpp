@@ -76,7 +76,7 @@ public:
             std::string("each pixel is darkened ") +
                 (_shadow->getStencilCure() ? "once" : "for EACH FACE over it, as in the notes") + " (x: the other)",
             std::string("the cube ") + (_turns ? "turns" : "stands") + " (j: the other)"};
-        for (const std::string& cause : _setup.diagnose()) lines.push_back(cause);
+        for (const std::string& cause : _setup.causes()) lines.push_back(cause);
         return lines;
     }
 

@@ -86,7 +86,7 @@ public:
         std::vector<std::string> lines = {
             plane.str(), light.str(), std::string("composite: ") + (blends ? "blend" : "relight") + " (r: the other)",
             std::string("the box ") + (_turns ? "turns" : "stands") + " (j: the other)"};
-        for (const std::string& cause : _setup.diagnose()) lines.push_back(cause);
+        for (const std::string& cause : _setup.causes()) lines.push_back(cause);
         return lines;
     }
 

@@ -105,7 +105,7 @@ public:
                 "; floor (x): " + textureNames[s.texture],
             string("light (u) ") + is(s.light) + ", " + (s.directional ? "arrow: directional" : "ball: positional") +
                 " (9; drag with the middle button)"};
-        for (const auto& causes : {_setup.diagnose(), _mirror->diagnose(), _halo->diagnose()})
+        for (const auto& causes : {_setup.causes(), _mirror->diagnose(), _halo->diagnose()})
             lines.insert(lines.end(), causes.begin(), causes.end());
         return lines;
     }

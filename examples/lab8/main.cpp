@@ -96,7 +96,7 @@ public:
         light << "light at (" << _light.x() << ", " << _light.y() << ", " << _light.z()
               << ") (u: up, d: down, or drag)";
         std::vector<std::string> lines = {std::string("shadow: ") + ways[_chosen] + " (n: next)", light.str()};
-        for (const std::string& cause : _setup.diagnose()) lines.push_back(cause);
+        for (const std::string& cause : _setup.causes()) lines.push_back(cause);
         return lines;
     }
 

@@ -152,7 +152,7 @@ public:
               << (s.colours ? "coloured" : "white") << " lights (k), boxes (o) " << is(s.boxes) << ", disco (j) "
               << is(s.disco);
         std::vector<std::string> lines = {view.str(), map.str(), lamps.str(), mapsDrawn()};
-        for (const std::string& cause : _setup.diagnose()) lines.push_back(cause);
+        for (const std::string& cause : _setup.causes()) lines.push_back(cause);
         return lines;
     }
 

@@ -25,7 +25,7 @@ HeadlessContext::Options contextFor(const ViewOptions& view, int stencilBits) {
 } // namespace
 
 ScenePicture::ScenePicture(const ViewOptions& view, SceneSetup& setup, int stencilBits)
-    : _samples(view.samples), _context(contextFor(view, stencilBits)) {
+    : _samples(view.samples), _setup(setup), _context(contextFor(view, stencilBits)) {
     osg::DisplaySettings::instance()->setMinimumNumStencilBits(static_cast<unsigned>(stencilBits));
     _viewer.setThreadingModel(osgViewer::Viewer::SingleThreaded);
     _viewer.setLightingMode(osg::View::NO_LIGHT);
@@ -60,7 +60,10 @@ osg::ref_ptr<osg::Image> ScenePicture::image() {
 }
 
 osg::ref_ptr<osg::Image> ScenePicture::draw(int frames) {
-    for (int i = 0; i < frames; ++i) frame();
+    for (int i = 0; i < frames; ++i) {
+        if (i + 1 == frames) _setup.diagnose(); // so that the last frame looks for all causes
+        frame();
+    }
     return image();
 }
 

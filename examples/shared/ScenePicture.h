@@ -29,6 +29,7 @@ public:
 
 private:
     const int _samples;
+    const SceneSetup& _setup;
     HeadlessContext _context; // before the viewer: it must outlive it
     osgViewer::Viewer _viewer;
     int _drawn = 0;

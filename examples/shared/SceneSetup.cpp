@@ -224,12 +224,22 @@ void SceneSetup::show(bool shadows) {
     for (const osg::ref_ptr<ShadowTechnique>& technique : techniques) technique->setNodeMask(shadows ? ~0u : 0u);
 }
 
-std::vector<std::string> diagnoses(const std::vector<osg::ref_ptr<ShadowTechnique>>& techniques) {
+namespace {
+
+/// Each cause once. @param causesOf  gives those of a technique.
+template <class Ask>
+std::vector<std::string> causesOfAll(const std::vector<osg::ref_ptr<ShadowTechnique>>& techniques, Ask causesOf) {
     std::vector<std::string> causes;
     for (const osg::ref_ptr<ShadowTechnique>& technique : techniques)
-        for (const std::string& cause : technique->diagnose())
+        for (const std::string& cause : causesOf(*technique))
             if (std::find(causes.begin(), causes.end(), cause) == causes.end()) causes.push_back(cause);
     return causes;
+}
+
+} // namespace
+
+std::vector<std::string> diagnoses(const std::vector<osg::ref_ptr<ShadowTechnique>>& techniques) {
+    return causesOfAll(techniques, [](const ShadowTechnique& technique) { return technique.diagnose(); });
 }
 
 bool SceneSetup::mayCast() const { return group->getCasters().mask != 0 || group->areCastersGone(); }
@@ -237,6 +247,11 @@ bool SceneSetup::mayCast() const { return group->getCasters().mask != 0 || group
 std::vector<std::string> SceneSetup::diagnose() const {
     const std::vector<std::string> causes = diagnoses(techniques);
     return mayCast() ? causes : std::vector<std::string>();
+}
+
+std::vector<std::string> SceneSetup::causes() const {
+    if (!mayCast()) return {};
+    return causesOfAll(techniques, [](const ShadowTechnique& technique) { return technique.lastReport().causes; });
 }
 
 std::string SceneSetup::lowLight() const {

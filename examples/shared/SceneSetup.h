@@ -55,8 +55,10 @@ struct SceneSetup {
     std::string lowLight() const;
     /// Whether anything was to cast a shadow.
     bool mayCast() const;
-    /// Why shadows were missing in the last frame, all techniques; nothing where none was to cast.
+    /// Why shadows were missing in the last frame, all techniques; nothing where none was to cast. See ShadowTechnique::diagnose().
     std::vector<std::string> diagnose() const;
+    /// The same for a text that is written in each frame, see ShadowTechnique::lastReport().
+    std::vector<std::string> causes() const;
 };
 
 /// Why shadows were missing in the last frame: each cause once, whichever of these techniques names it.

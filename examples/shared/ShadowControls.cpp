@@ -114,6 +114,11 @@ void ShadowControls::applySwitches() {
     }
 }
 
+void ShadowControls::toggleReports() {
+    _showsReports = !_showsReports;
+    _setup.diagnose(); // describe() tells what the next frame finds
+}
+
 std::vector<std::string> ShadowControls::describe() const {
     std::vector<std::string> lines = {"shadow: " + describeShadow(), "light: " + describeLight()};
     if (draws<PlanarShadowNode>() || !(_cures.stencil && _cures.offset && _cures.clip))
@@ -126,7 +131,7 @@ std::vector<std::string> ShadowControls::describe() const {
     lines.push_back("h shows all keys, g hides this text");
     if (!_refusal.empty()) lines.push_back(_refusal);
     if (const std::string low = _setup.lowLight(); !low.empty()) lines.push_back(low);
-    for (const std::string& cause : _setup.diagnose()) lines.push_back(cause);
+    for (const std::string& cause : _setup.causes()) lines.push_back(cause);
     return lines;
 }
 
@@ -169,7 +174,7 @@ const std::vector<Key<ShadowControls>>& shadowKeys() {
          [](ShadowControls& c, Hud&) { c.toggle(&PlanarCures::clip); }},
         {'v', "Show shadow maps, their texels, their cascades; or shadow volumes; or nothing.",
          [](ShadowControls& c, Hud&) { c.nextView(); }},
-        {'i', "Show or hide what each technique did in the last frame.",
+        {'i', "Show or hide what each technique did in the last frame, and look anew for what takes long to find.",
          [](ShadowControls& c, Hud&) { c.toggleReports(); }},
         {'g', "Hide or show Gnomon's text.", [](ShadowControls&, Hud& hud) { hud.toggle(); }},
     };

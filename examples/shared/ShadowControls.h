@@ -28,8 +28,8 @@ public:
     void toggle(bool PlanarCures::*cure);
     /// Next of the views of shadow maps.
     void nextView();
-    /// Whether describe() says what each technique did in the last frame.
-    void toggleReports() { _showsReports = !_showsReports; }
+    /// Whether describe() says what each technique did in the last frame. Looks anew for causes that take long to find.
+    void toggleReports();
 
     /// How things stand, a line each, and why shadows are missing.
     std::vector<std::string> describe() const;

@@ -112,8 +112,8 @@ public:
     bool shadowsSurface(const ViewFrame& view, const osgUtil::RenderLeaf& leaf) const override;
     /// How far a surface is from the plane, if that is more than 0.0001 of its radius, and yet close to it.
     std::string flawOn(const ViewFrame& view, const osgUtil::RenderLeaf& leaf) const override;
-    /// Changes with the planes.
-    std::uint64_t surfacesKey() const override;
+    /// True if it has planes.
+    bool leavesSomeLit() const override { return !_planes.empty(); }
 
     /// See ShadowTechnique::letGo().
     void letGo() const override;

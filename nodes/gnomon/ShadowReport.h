@@ -31,7 +31,8 @@ struct GNOMON_EXPORT ShadowReport {
     /// Time in the draw thread, milliseconds, without waiting for the GPU. Techniques of one view share it: each counts all.
     double draw = 0.0;
     std::vector<ShadowDecision> decisions; ///< Choices of an AutoShadowTechnique, see its lastDecision(). Else empty.
-    std::vector<std::string> causes;       ///< See ShadowTechnique::diagnose().
+    /// See ShadowTechnique::diagnose(). Does not make the next frame look for those that take long to find.
+    std::vector<std::string> causes;
 
     /// The numbers in a line: "ShadowMapTechnique 'sun': 1 light, 1 mark within 5200 pixels, 0 passes, cull 0.1 ms, draw 0.3 ms".
     std::string text() const;

@@ -11,7 +11,6 @@
 #include <glm/vec3.hpp>
 #include <osg/Geode>
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -63,6 +62,10 @@ public:
     bool isReceiverGone() const { return _receiver.isGone(*this); }
 
     /// Says why a shadow was missing or incomplete in the last frame, in any view.
+    ///
+    /// Some causes take up to tenths of a second to find: a node that encloses all, surfaces that stay lit, depths that are too
+    /// coarse. The first two frames in which anything casts look for them, and the frame after each call; the others repeat what
+    /// was found last. So call it, draw a frame, and call it again. To show causes in each frame, take lastReport().
     /// A program that never calls it gets each cause once, by osg::notify() at WARN.
     /// @return one sentence a cause, with the node and the remedy; empty if all is well.
     std::vector<std::string> diagnose() const;
@@ -101,15 +104,15 @@ public:
     /// Default false.
     virtual bool drawsCasters() const { return false; }
 
-    /// True if the technique can shadow a surface that is among its receivers. Default true.
+    /// True if the technique can shadow a surface that is among its receivers. Default true. Asked in cull, where a frame looks for slow causes.
     /// @param leaf  a leaf of the surface, in view.
     virtual bool shadowsSurface(const ViewFrame& view, const osgUtil::RenderLeaf& leaf) const;
     /// What makes the shadow on a surface that is among its receivers wrong in part, as a cause for report(). Asked as
     /// shadowsSurface() is. Default: nothing.
     virtual std::string flawOn(const ViewFrame& view, const osgUtil::RenderLeaf& leaf) const;
-    /// Changes with what shadowsSurface() says. If it is not 0, the default, the compositor names a surface that its shadow
-    /// could reach and that no technique shadows.
-    virtual std::uint64_t surfacesKey() const { return 0; }
+    /// True if shadowsSurface() may be false, or flawOn() tells something. Frames then look for a surface that the shadow
+    /// could reach and that no technique shadows. Default false.
+    virtual bool leavesSomeLit() const { return false; }
 
     /// True if the light reaches a point, as this technique draws it. ShadowQuery calls it.
     /// Default: true if a ray from the point to the light meets no caster.

@@ -5,7 +5,6 @@
 
 #include <osg/StateSet>
 
-#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -105,8 +104,8 @@ public:
                                             const Casters& casters) const override;
     /// See ShadowTechnique::letGo().
     void letGo() const override;
-    /// 1: it shadows its receiver alone.
-    std::uint64_t surfacesKey() const override { return 1; }
+    /// True: it shadows its receiver alone.
+    bool leavesSomeLit() const override { return true; }
 
     /// Computes all shadows of one light, for isLit().
     osg::ref_ptr<const osg::Referenced> answersFor(const ShadowProbe& probe) const override;

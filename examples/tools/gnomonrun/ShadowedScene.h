@@ -60,6 +60,7 @@ public:
     }
 
     std::vector<std::string> diagnose() const { return _setup.diagnose(); }
+    std::vector<std::string> causes() const { return _setup.causes(); }
     /// What draws the shadows now, as --shadow has it.
     std::string technique() const {
         std::string names;

@@ -212,10 +212,12 @@ private:
         }
     }
 
-    /// Each cause once.
+    /// Each cause once. With --frames or --diagnose a technique's last frame looks for those that take long to find.
     void sayCauses() {
+        const bool ends = _options.diagnose || _options.frames > 0;
+        const bool lastIsNext = ends && (_frame + 2) % _options.framesEach() == 0;
         for (const auto& scene : _scenes)
-            for (const std::string& cause : scene->diagnose())
+            for (const std::string& cause : lastIsNext ? scene->diagnose() : scene->causes())
                 if (const std::string line = scene->technique() + ": " + cause; _said.insert(line).second)
                     say("note: " + line);
     }

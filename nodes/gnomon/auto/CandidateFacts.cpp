@@ -111,10 +111,10 @@ bool isFaint(const ShadowInView& shadow) {
 
 std::string whyCoarse(const ShadowInView& shadow) {
     const std::vector<const osgUtil::RenderLeaf*> none;
-    const LightInView lit{*shadow.view.group, shadow.light, shadow.casters, none, shadow.view.eyeFromGroup};
+    const CastersInView seen{shadow.casters, none, shadow.view.eyeFromGroup};
     const DepthPixels pixels{shadow.view.pixels, 1.0};
-    if (reachesCoarseDepth(lit, shadow.view.projection, pixels))
-        if (const std::string name = coarselyPlaced(lit, shadow.view.projection, pixels); !name.empty())
+    if (reachesCoarseDepth(seen, shadow.view.projection, pixels))
+        if (const std::string name = coarselyPlaced(seen, shadow.view.projection, pixels); !name.empty())
             return "depths are too coarse at '" + name + "'";
     const std::string name = drawnOffItsPlace(shadow.view.seen, shadow.view.projection, pixels.size);
     return name.empty() ? "" : "the vertices of '" + name + "' lie far from their origin, an offset for a transform";

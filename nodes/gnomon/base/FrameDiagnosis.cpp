@@ -12,6 +12,8 @@ namespace {
 
 using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
 
+constexpr unsigned firstFrames = 2; // a viewer may draw its first before it has placed the camera
+
 /// Counts may change from frame to frame, and the cause is the same.
 std::string withoutDigits(std::string text) {
     const auto isDigit = [](unsigned char letter) { return letter >= '0' && letter <= '9'; };
@@ -24,18 +26,42 @@ std::string withoutDigits(std::string text) {
 std::vector<std::string> FrameDiagnosis::all() const {
     Lock lock(_mutex);
     _asked = true;
+    _wantsSlow = true;
     return _causes;
 }
 
-void FrameDiagnosis::add(unsigned frame, const std::string& who, const std::string& cause) {
-    const std::string sentence = who + ": " + cause;
-    if (isNewsOf(frame, sentence)) OSG_WARN << "gnomon: " << sentence << std::endl; // whoever is told may ask for all()
+std::vector<std::string> FrameDiagnosis::known() const {
+    Lock lock(_mutex);
+    _asked = true;
+    return _causes;
 }
 
-bool FrameDiagnosis::isNewsOf(unsigned frame, const std::string& sentence) {
+bool FrameDiagnosis::looksForSlow(unsigned frame) {
+    Lock lock(_mutex);
+    if (frame != _frame) return false;
+    if (_looks) return *_looks;
+    _looks = _wantsSlow || _looked < firstFrames;
+    if (*_looks) {
+        _looked = std::min(_looked + 1, firstFrames);
+        _wantsSlow = false;
+        _slow.clear();
+    }
+    for (const std::string& sentence : _slow)
+        if (_known.insert(sentence).second) _causes.push_back(sentence);
+    return *_looks;
+}
+
+void FrameDiagnosis::add(unsigned frame, const std::string& who, const std::string& cause, CauseKind kind) {
+    const std::string sentence = who + ": " + cause;
+    if (isNewsOf(frame, sentence, kind)) // whoever is told may ask for all()
+        OSG_WARN << "gnomon: " << sentence << std::endl;
+}
+
+bool FrameDiagnosis::isNewsOf(unsigned frame, const std::string& sentence, CauseKind kind) {
     Lock lock(_mutex);
     if (frame != _frame || !_known.insert(sentence).second) return false;
     _causes.push_back(sentence);
+    if (kind == CauseKind::Slow) _slow.push_back(sentence);
     return !_asked && _warned.insert(withoutDigits(sentence)).second;
 }
 
@@ -47,6 +73,7 @@ bool FrameDiagnosis::begin(unsigned frame, double time, const void* view) {
         _time = time;
         _causes.clear();
         _known.clear();
+        _looks.reset();
         _views.clear();
     }
     _views.insert(view);

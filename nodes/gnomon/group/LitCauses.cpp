@@ -31,41 +31,6 @@
 namespace gnomon {
 namespace {
 
-constexpr unsigned patience = 60;      // frames in which something changes, until all is looked at again
-constexpr std::size_t mostKnown = 512; // of askers and lights in a stage: what is forgotten is looked for in each frame
-
-} // namespace
-
-RecalledCauses::Known& RecalledCauses::knownOf(Kind kind, const void* who, int number) {
-    const auto found = std::find_if(_known.begin(), _known.end(), [&](const Known& known) {
-        return known.kind == kind && known.who == who && known.number == number;
-    });
-    if (found != _known.end()) return *found;
-    if (_known.size() >= mostKnown) _known.erase(_known.begin());
-    _known.push_back({kind, who, number});
-    _known.back().frames = patience;
-    return _known.back();
-}
-
-std::string RecalledCauses::causeOf(Kind kind, const void* who, const LightInView& lit, const State& state,
-                                    const std::function<std::string()>& find) {
-    Known& known = knownOf(kind, who, lit.light.number);
-    ++known.frames;
-    const bool same =
-        known.casters == lit.casters.fingerprint && known.light == lit.light.inGroup && known.state.seen == state.seen;
-    const bool waits = known.frames < patience && known.pieces == lit.casters.list.size();
-    if ((same || waits) && known.state.settings == state.settings) return known.cause;
-    known.casters = lit.casters.fingerprint;
-    known.pieces = lit.casters.list.size();
-    known.state = state;
-    known.light = lit.light.inGroup;
-    known.frames = 0;
-    known.cause = find();
-    return known.cause;
-}
-
-namespace {
-
 constexpr std::size_t mostReceivers = 7;       // nine points each: 63 rays to the light
 constexpr std::size_t mostTriangles = 200000;  // of an enclosing node: a tree of these takes a fifth of a second
 constexpr double nearlyAll = 0.95, cone = 0.5; // the cosine of 60°
@@ -99,12 +64,12 @@ CastingNode largestNode(const Casters& casters) {
 }
 
 /// Boxes of what is seen in the group's frame, but for a node's own; the largest.
-std::vector<osg::BoundingBoxd> boxesOf(const LightInView& lit, const CastingNode& without) {
+std::vector<osg::BoundingBoxd> boxesOf(const CastersInView& seen, const CastingNode& without) {
     std::set<const osg::Drawable*> left;
     for (const auto& piece : without.pieces) left.insert(piece->drawable);
-    const osg::Matrixd groupFromEye = osg::Matrixd::inverse(lit.eyeFromGroup);
+    const osg::Matrixd groupFromEye = osg::Matrixd::inverse(seen.eyeFromGroup);
     std::vector<osg::BoundingBoxd> boxes;
-    for (const osgUtil::RenderLeaf* leaf : lit.receivers) {
+    for (const osgUtil::RenderLeaf* leaf : seen.receivers) {
         const osg::BoundingBox& box = leaf->_drawable->getBoundingBox();
         if (!box.valid() || left.count(leaf->_drawable)) continue;
         boxes.push_back(placedBox(box, modelviewOf(*leaf) * groupFromEye));
@@ -139,13 +104,11 @@ bool holdsForNearlyAll(const std::vector<osg::Vec3d>& points, Test test) {
     return double(std::count_if(points.begin(), points.end(), test)) >= nearlyAll * double(points.size());
 }
 
-/// Whether a node is before the light and about all points.
-bool encloses(const CastingNode& node, const std::vector<osg::Vec3d>& points, const osg::Vec4d& light) {
-    const osg::ref_ptr<const CasterMesh> mesh = meshOf(node.pieces);
-    const SceneFrame frame(toGlm(mesh->origin));
+/// Whether what rays meet, in its frame, is before the light and about all points.
+bool encloses(const RayScene& rays, const SceneFrame& frame, const std::vector<osg::Vec3d>& points,
+              const osg::Vec4d& light) {
     const std::optional<glm::dvec4> local = lightInScene(light, frame);
     if (!local) return false;
-    const RayScene rays(soupOf(*mesh));
     const auto towards = [&](const glm::dvec3& point) {
         return local->w == 0.0 ? glm::dvec3(*local) : glm::dvec3(*local) - point;
     };
@@ -158,23 +121,30 @@ bool encloses(const CastingNode& node, const std::vector<osg::Vec3d>& points, co
     });
 }
 
-std::string findEnclosing(const LightInView& lit) {
-    const CastingNode node = largestNode(lit.casters);
+std::vector<std::string> findEnclosing(const CastersInView& seen, const std::vector<ShadowLight>& lights) {
+    const CastingNode node = largestNode(seen.casters);
     if (!node.node || node.triangles > mostTriangles) return {};
-    const std::vector<osg::Vec3d> points = pointsIn(boxesOf(lit, node));
+    const std::vector<osg::Vec3d> points = pointsIn(boxesOf(seen, node));
     const auto isInside = [&](const osg::Vec3d& point) { return node.bounds.contains(point); };
-    if (points.empty() || !holdsForNearlyAll(points, isInside) || !encloses(node, points, lit.light.inGroup)) return {};
-    return "nearly all that light " + std::to_string(lit.light.number) +
-           " could reach in this view is in the shadow of '" + nameOf(*node.node) +
-           "', which stands around it. Take that node out of the casters (setCasters(), --casters), or draw it "
-           "at the far plane, as skies are.";
+    if (points.empty() || !holdsForNearlyAll(points, isInside)) return {};
+    const osg::ref_ptr<const CasterMesh> mesh = meshOf(node.pieces);
+    const RayScene rays(soupOf(*mesh));
+    std::vector<std::string> causes;
+    for (const ShadowLight& light : lights)
+        if (encloses(rays, SceneFrame(toGlm(mesh->origin)), points, light.inGroup))
+            causes.push_back(
+                "nearly all that light " + std::to_string(light.number) +
+                " could reach in this view is in the shadow of '" + nameOf(*node.node) +
+                "', which stands around it. Take that node out of the casters (setCasters(), --casters), or draw it "
+                "at the far plane, as skies are.");
+    return causes;
 }
 
 } // namespace
 
-std::string enclosingCause(const LightInView& lit) {
+std::vector<std::string> enclosingCauses(const CastersInView& seen, const std::vector<ShadowLight>& lights) {
     try {
-        return findEnclosing(lit);
+        return findEnclosing(seen, lights);
     } catch (const std::runtime_error&) { // no tree for rays: traced tells why
         return {};
     }
@@ -272,9 +242,9 @@ void cutBehind(const osg::BoundingBoxd& floor, const osg::Vec4d& light, osg::Bou
 }
 
 /// The largest first, without what is sunk in a floor that gets its shadow.
-std::vector<Placed> surfacesOf(const LightInView& lit, const LeafSet& shadowed, const osg::Vec4d& light) {
-    const osg::Matrixd groupFromEye = osg::Matrixd::inverse(lit.eyeFromGroup);
-    std::vector<Placed> surfaces = placed(lit.receivers, groupFromEye);
+std::vector<Placed> surfacesOf(const CastersInView& seen, const LeafSet& shadowed, const osg::Vec4d& light) {
+    const osg::Matrixd groupFromEye = osg::Matrixd::inverse(seen.eyeFromGroup);
+    std::vector<Placed> surfaces = placed(seen.receivers, groupFromEye);
     for (const Placed& floor : placed(shadowed, groupFromEye))
         for (Placed& surface : surfaces) cutBehind(floor.inGroup, light, surface.inGroup);
     const auto isNothing = [](const Placed& surface) { return !surface.inGroup.valid(); };
@@ -301,14 +271,14 @@ bool canShadow(const Placed& caster, const Placed& surface, const osg::Vec4d& li
 
 } // namespace
 
-std::string unshadowedSurface(const LightInView& lit, const LeafSet& shadowed,
+std::string unshadowedSurface(const CastersInView& seen, const ShadowLight& from, const LeafSet& shadowed,
                               const std::set<const osg::Drawable*>& notCasting) {
     std::vector<Placed> casters;
-    for (const auto& piece : lit.casters.list)
+    for (const auto& piece : seen.casters.list)
         if (piece->bounds.valid() && !notCasting.count(piece->drawable))
             casters.push_back({piece->drawable, piece->groupFromLocal, piece->bounds});
-    const osg::Vec4d light = lit.light.inGroup.w() < 0.0 ? -lit.light.inGroup : lit.light.inGroup;
-    for (const Placed& surface : surfacesOf(lit, shadowed, light)) {
+    const osg::Vec4d light = from.inGroup.w() < 0.0 ? -from.inGroup : from.inGroup;
+    for (const Placed& surface : surfacesOf(seen, shadowed, light)) {
         const auto shadows = [&](const Placed& caster) { return canShadow(caster, surface, light); };
         if (std::any_of(casters.begin(), casters.end(), shadows) && !areAllFacesCulled(*surface.leaf))
             return nameOf(*surface.drawable);
@@ -353,16 +323,16 @@ double coarseDepthFrom(const osg::Matrixd& projection, const DepthPixels& pixels
     return std::ldexp(change, depthBits) / (across * pixels.steps);
 }
 
-bool reachesCoarseDepth(const LightInView& lit, const osg::Matrixd& projection, const DepthPixels& pixels) {
-    const osg::BoundingBoxd& box = lit.casters.bounds;
+bool reachesCoarseDepth(const CastersInView& seen, const osg::Matrixd& projection, const DepthPixels& pixels) {
+    const osg::BoundingBoxd& box = seen.casters.bounds;
     return box.valid() &&
-           farthestOf(cornersOf(box, toGlm(lit.eyeFromGroup * projection))) > coarseDepthFrom(projection, pixels);
+           farthestOf(cornersOf(box, toGlm(seen.eyeFromGroup * projection))) > coarseDepthFrom(projection, pixels);
 }
 
-std::string coarselyPlaced(const LightInView& lit, const osg::Matrixd& projection, const DepthPixels& pixels) {
+std::string coarselyPlaced(const CastersInView& seen, const osg::Matrixd& projection, const DepthPixels& pixels) {
     const double coarse = coarseDepthFrom(projection, pixels);
-    const glm::dmat4 clipFromGroup = toGlm(lit.eyeFromGroup * projection);
-    for (const auto& piece : lit.casters.list) {
+    const glm::dmat4 clipFromGroup = toGlm(seen.eyeFromGroup * projection);
+    for (const auto& piece : seen.casters.list) {
         if (!piece->bounds.valid()) continue;
         const Corners corners = cornersOf(piece->bounds, clipFromGroup);
         if (nearestOf(corners) > coarse && isSeen(corners, pixels.size)) return nameOf(*piece->drawable);

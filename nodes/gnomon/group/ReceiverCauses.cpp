@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/base/Fingerprint.h>
 #include <gnomon/compositor/KeptByStage.h>
 #include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/compositor/ShadowJob.h>
-#include <gnomon/group/LitCauses.h>
 #include <gnomon/group/ReceiverCauses.h>
 
 #include <osg/Program>
@@ -54,92 +52,6 @@ void reportFog(const EnlistedTechnique& entry, const StageLeaves& drawn) {
         (isModeOn(drawn.early, GL_FOG) || isModeOn(drawn.late.leaves, GL_FOG)))
         entry.report("fog is on, and BLEND darkens it with the surface behind it. Set "
                      "RELIGHT (composite=relight), or switch GL_FOG off.");
-}
-
-/// What decides on which surfaces a group's techniques shadow.
-std::uint64_t settingsOf(const ShadowCasterGroup& group, const std::vector<EnlistedTechnique>& all) {
-    Fingerprint settings;
-    for (const EnlistedTechnique& entry : all) {
-        if (entry.group.get() != &group) continue;
-        settings.mix(entry.technique.get());
-        settings.mix(entry.technique->surfacesKey());
-        settings.mix(entry.groupFromTechnique);
-        const Selection receiver = entry.technique->getReceiver();
-        settings.mix(std::uint64_t{receiver.mask});
-        for (const auto& root : receiver.roots()) settings.mix(root.get());
-    }
-    return settings.value();
-}
-
-/// Surfaces on which a shadow could be expected, to be looked through.
-Leaves surfacesOf(const EnlistedTechnique& entry, const StageLeaves& drawn) {
-    const auto canReceive = [&](const osgUtil::RenderLeaf& leaf) {
-        const auto displaced = drawn.displaced.find(&leaf);
-        const bool isSky =
-            displaced != drawn.displaced.end() && displaced->second.nearest == displaced->second.farthest;
-        return !isSky && isSameLens(projectionOf(leaf), *entry.projection) && isShaded(leaf._parent) &&
-               writesDepth(leaf._parent) && !drawn.programs.moves(leaf);
-    };
-    Leaves surfaces;
-    for (const auto* leaves : {&drawn.early, &drawn.late.leaves})
-        for (const DrawnLeaf& drawnLeaf : *leaves)
-            if (canReceive(*drawnLeaf.leaf)) surfaces.push_back(drawnLeaf.leaf);
-    return surfaces;
-}
-
-/// Those of the surfaces that a technique shadows.
-LeafSet shadowedBy(const EnlistedTechnique& entry, const StageLeaves& drawn, osgUtil::RenderStage& stage) {
-    const ViewFrame view = viewOf(entry, *stage.getViewport());
-    LeafSet shadowed;
-    for (const auto* leaves : {&drawn.early, &drawn.late.leaves})
-        for (const osgUtil::RenderLeaf* leaf : receivingOf(entry, *leaves, stage))
-            if (entry.technique->shadowsSurface(view, *leaf)) shadowed.insert(leaf);
-    return shadowed;
-}
-
-/// Drawables that cast nothing by a technique: what its shadow lies on.
-std::set<const osg::Drawable*> notCastingBy(const EnlistedTechnique& entry, const LeafSet& shadowed,
-                                            const Casters& casters) {
-    std::set<const osg::Drawable*> result;
-    for (const osgUtil::RenderLeaf* leaf : shadowed) result.insert(leaf->_drawable.get());
-    if (!entry.technique->hasReceiver()) return result;
-    std::vector<const osg::Drawable*> all;
-    for (const auto& piece : casters.list) all.push_back(piece->drawable);
-    const std::set<const osg::Drawable*> named = drawablesUnder(entry.technique->getReceiver(), all, *entry.group);
-    result.insert(named.begin(), named.end());
-    return result;
-}
-
-/// What is wrong with the shadow on some receiver.
-std::string flawedCause(const TechniqueInStage& asked) {
-    const auto& [entry, all, drawn, stage] = asked;
-    const ViewFrame view = viewOf(entry, *stage.getViewport());
-    const bool named = entry.technique->hasReceiver();
-    for (const auto* leaves : {&drawn.early, &drawn.late.leaves})
-        for (const osgUtil::RenderLeaf* leaf : receivingOf(entry, *leaves, stage)) {
-            if (!named && !(isShaded(leaf->_parent) && writesDepth(leaf->_parent))) continue;
-            if (const std::string flaw = entry.technique->flawOn(view, *leaf); !flaw.empty()) return flaw;
-        }
-    return {};
-}
-
-std::string unshadowedCause(const TechniqueInStage& asked, const ShadowLight& light, const Casters& casters) {
-    const auto& [entry, all, drawn, stage] = asked;
-    if (const std::string flaw = flawedCause(asked); !flaw.empty()) return flaw;
-    Leaves surfaces = surfacesOf(entry, drawn);
-    for (const EnlistedTechnique& other : all) {
-        if (other.group != entry.group || surfaces.empty()) continue;
-        const LeafSet shadowed = shadowedBy(other, drawn, stage);
-        const auto isShadowed = [&](const osgUtil::RenderLeaf* leaf) { return shadowed.count(leaf) > 0; };
-        surfaces.erase(std::remove_if(surfaces.begin(), surfaces.end(), isShadowed), surfaces.end());
-    }
-    if (surfaces.empty()) return {};
-    const LeafSet shadowed = shadowedBy(entry, drawn, stage);
-    const std::string name = unshadowedSurface({*entry.group, light, casters, surfaces, entry.eyeFromGroup}, shadowed,
-                                               notCastingBy(entry, shadowed, casters));
-    if (name.empty()) return {};
-    return "the casters' shadow can fall on '" + name +
-           "', which this technique leaves lit. Use map, volume or traced, or add a technique that receives there.";
 }
 
 } // namespace
@@ -217,68 +129,6 @@ void reportReceiverStates(const TechniqueInStage& asked, const Receiving& receiv
     reportSeenThrough(asked);
     if (late.empty()) reportNoDepth(entry, early);
     if (!early.empty() || !late.empty()) reportFog(entry, asked.drawn);
-}
-
-void reportEnclosers(const TechniqueInStage& asked, const std::vector<ShadowLight>& lights, const Casters& casters,
-                     const Leaves& receiving) {
-    const EnlistedTechnique& entry = asked.entry;
-    for (const ShadowLight& light : lights) {
-        const LightInView lit{*entry.group, light, casters, receiving, entry.eyeFromGroup};
-        const std::string cause = keptBy<RecalledCauses>(asked.stage)
-                                      .causeOf(RecalledCauses::Kind::EnclosingNode, entry.group.get(), lit,
-                                               {receiving.size(), 0}, [&] { return enclosingCause(lit); });
-        if (!cause.empty()) entry.report(cause);
-    }
-}
-
-void reportUnshadowed(const TechniqueInStage& asked, const std::vector<ShadowLight>& lights, const Casters& casters) {
-    const EnlistedTechnique& entry = asked.entry;
-    if (entry.technique->surfacesKey() == 0) return;
-    const std::optional<std::uint64_t> seen = asked.drawn.shadedFingerprint();
-    if (!seen) return;
-    const RecalledCauses::State state{*seen, settingsOf(*entry.group, asked.all)};
-    const Leaves none;
-    for (const ShadowLight& light : lights) {
-        const LightInView lit{*entry.group, light, casters, none, entry.eyeFromGroup};
-        const std::string cause = keptBy<RecalledCauses>(asked.stage)
-                                      .causeOf(RecalledCauses::Kind::UnshadowedSurface, entry.technique.get(), lit,
-                                               state, [&] { return unshadowedCause(asked, light, casters); });
-        if (!cause.empty()) entry.report(cause);
-    }
-}
-
-void reportUnsureDepths(const TechniqueInStage& asked, const ShadowLight& light, const Casters& casters, double steps,
-                        const Receiving& receiving) {
-    const EnlistedTechnique& entry = asked.entry;
-    const osg::Matrixd& lens = *entry.projection;
-    const DepthPixels pixels{viewOf(entry, *asked.stage.getViewport()).pixels, steps};
-    const LightInView lit{*entry.group, light, casters, receiving.early, entry.eyeFromGroup};
-    Fingerprint seen;
-    seen.mix(entry.eyeFromGroup);
-    seen.mix(lens);
-    seen.mix(std::uint64_t{receiving.early.size() + receiving.late.size()});
-    const auto report = [&](RecalledCauses::Kind kind, const char* before, const char* after, const auto& find) {
-        const auto found = [&] {
-            const std::string name = find();
-            return name.empty() ? name : before + name + after;
-        };
-        const std::string cause =
-            keptBy<RecalledCauses>(asked.stage).causeOf(kind, entry.technique.get(), lit, {seen.value(), 0}, found);
-        if (!cause.empty()) entry.report(cause);
-    };
-    if (reachesCoarseDepth(lit, lens, pixels))
-        report(RecalledCauses::Kind::CoarseDepth, "depths cannot tell where the shadow of '",
-               "' falls, because their steps are too long there. Move the near plane out, or let OpenSceneGraph "
-               "compute it.",
-               [&] { return coarselyPlaced(lit, lens, pixels); });
-    report(
-        RecalledCauses::Kind::LargeCoordinates, "the vertices of '",
-        "' lie so far from their origin that OpenGL draws them off their place, so shadows on it may be lost or false. "
-        "Put the offset into a transform, or use traced.",
-        [&] {
-            const std::string name = drawnOffItsPlace(receiving.early, lens, pixels.size);
-            return name.empty() ? drawnOffItsPlace(receiving.late, lens, pixels.size) : name;
-        });
 }
 
 } // namespace gnomon

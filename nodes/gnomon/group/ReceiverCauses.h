@@ -37,18 +37,4 @@ struct Receiving {
 /// Says what of the receivers' states keeps shadows from them, or makes them wrong.
 void reportReceiverStates(const TechniqueInStage& asked, const Receiving& receiving);
 
-/// Says what keeps lights from all that is seen.
-void reportEnclosers(const TechniqueInStage& asked, const std::vector<ShadowLight>& lights, const Casters& casters,
-                     const Leaves& receiving);
-
-/// Says which surface stays lit though a shadow can reach it, unless it has that of another technique of the same group. For
-/// techniques that shadow some of what is in view.
-void reportUnshadowed(const TechniqueInStage& asked, const std::vector<ShadowLight>& lights, const Casters& casters);
-
-/// Says that the shadows of what is far away cannot be placed by depth, and which receiver is drawn off its place because its
-/// vertices lie far from their origin. For techniques whose marks depend on depth.
-/// @param steps  see Mark::depthSteps, above 0.
-void reportUnsureDepths(const TechniqueInStage& asked, const ShadowLight& light, const Casters& casters, double steps,
-                        const Receiving& receiving);
-
 } // namespace gnomon

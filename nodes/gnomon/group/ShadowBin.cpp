@@ -7,6 +7,7 @@
 #include <gnomon/compositor/PrepassBin.h>
 #include <gnomon/group/ReceiverCauses.h>
 #include <gnomon/group/ShadowBin.h>
+#include <gnomon/group/SlowCauses.h>
 #include <gnomon/group/StageStats.h>
 #include <gnomon/group/ViewLights.h>
 
@@ -368,16 +369,17 @@ void ShadowBin::askForMarks(const EnlistedTechnique& entry, const GroupLights& f
         if (!otherLens) reportNoReceiver(entry, *getStage());
         return;
     }
-    reportEnclosers(asked, found.lights, casters, receiving.early);
     const std::size_t before = _jobs.size(), lateBefore = _lateJobs.size();
     addJobs(asked, found, casters, receiving);
-    if (_jobs.size() == before && _lateJobs.size() == lateBefore) return; // it has said why, or is out of sight
-    reportUnshadowed(asked, found.lights, casters);
+    const FrameReport report = entry.technique->reportIn(entry.frameNumber);
+    if (!report.diagnosis->looksForSlow(report.frame)) return;
+    const bool marks = _jobs.size() > before || _lateJobs.size() > lateBefore;
     double steps = 0.0;
     const auto take = [&steps](const ShadowJob& job) { steps = std::max(steps, job.mark->depthSteps); };
     std::for_each(_jobs.begin() + before, _jobs.end(), take);
     std::for_each(_lateJobs.begin() + lateBefore, _lateJobs.end(), take);
-    if (steps > 0.0) reportUnsureDepths(asked, found.lights.front(), casters, steps, receiving);
+    for (const std::string& cause : slowCauses(asked, {found.lights, casters, receiving, marks, steps}))
+        report(cause, CauseKind::Slow);
 }
 
 /// Asks a technique for its marks: each part of the receivers, and each light.

@@ -57,7 +57,7 @@ ShadowReport ShadowTechnique::lastReport() const {
     const FrameWork work = _diagnosis->work();
     ShadowReport report;
     report.technique = describe();
-    report.causes = diagnose();
+    report.causes = _diagnosis->known();
     if (!work.known) return report;
     report.frame = work.frame;
     report.lights = work.lights;

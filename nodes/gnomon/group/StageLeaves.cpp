@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/base/Fingerprint.h>
 #include <gnomon/base/PixelRect.h>
 #include <gnomon/base/ProgramText.h>
 #include <gnomon/casters/DrawableTriangles.h>

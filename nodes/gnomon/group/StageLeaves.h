@@ -3,7 +3,6 @@
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ShadowTechnique.h>
 #include <gnomon/ViewFrame.h>
-#include <gnomon/base/Fingerprint.h>
 #include <gnomon/base/FrameDiagnosis.h>
 #include <gnomon/base/ProgramText.h>
 #include <gnomon/casters/Caster.h>
@@ -100,24 +99,6 @@ struct StageLeaves {
         if (!all) return;
         programs = ProgramCauses(stage);
         for (const auto* leaves : {&early, &late.leaves}) findDisplaced(*leaves);
-    }
-
-    /// Of what is drawn and shaded, wherever it is; nullopt if nothing is.
-    std::optional<std::uint64_t> shadedFingerprint() const {
-        Fingerprint drawables;
-        const osgUtil::StateGraph* graph = nullptr; // leaves of one state mostly follow each other
-        bool shaded = false, any = false;
-        for (const auto* leaves : {&early, &late.leaves})
-            for (const DrawnLeaf& entry : *leaves) {
-                if (entry.leaf->_parent != graph) shaded = isShaded(graph = entry.leaf->_parent);
-                any = any || shaded;
-                if (!shaded) continue;
-                drawables.mix(entry.leaf->_drawable.get());
-                if (const osg::RefMatrix* place = entry.leaf->_modelview.get())
-                    for (int i = 0; i < 3; ++i) drawables.mix((*place)(3, i));
-            }
-        if (!any) return std::nullopt;
-        return drawables.value();
     }
 
     std::vector<DrawnLeaf> early; ///< before the bin.

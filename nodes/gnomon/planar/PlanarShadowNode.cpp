@@ -5,7 +5,6 @@
 #include <gnomon/Plane.h>
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ViewFrame.h>
-#include <gnomon/base/Fingerprint.h>
 #include <gnomon/casters/Casters.h>
 #include <gnomon/casters/DrawableTriangles.h>
 #include <gnomon/compositor/DrawnLeaves.h>
@@ -311,13 +310,6 @@ std::string PlanarShadowNode::flawOn(const ViewFrame& view, const osgUtil::Rende
                     ", too far to be taken for it, so its shadow is missing or wrong. Give the plane that it lies in.");
     }
     return flaw;
-}
-
-std::uint64_t PlanarShadowNode::surfacesKey() const {
-    Fingerprint planes;
-    for (const osg::Vec4d& plane : _planes)
-        for (int i = 0; i < 4; ++i) planes.mix(plane[i]);
-    return _planes.empty() ? 0 : planes.value() | 1;
 }
 
 /// A ray from the foot of the point in the plane, lifted off it: what lies in the plane never casts.

@@ -99,6 +99,7 @@ metrics::Picture Sight::frame() {
 }
 
 metrics::Visibility Sight::visibility() {
+    _viewer.staging().diagnose(); // so that the frame looks for all causes
     const metrics::Picture casting = frame();
     _diagnosis = _viewer.staging().diagnose();
     _decisions = _viewer.staging().decisions();
