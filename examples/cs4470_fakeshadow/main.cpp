@@ -3,9 +3,15 @@
 #include "Example.h"
 #include "Mesh.h"
 
+#include <gnomon/Convert.h>
+#include <gnomon/PlanarShadow.h>
 #include <gnomon/PlanarShadowNode.h>
 
+#include <osg/BlendColor>
+#include <osg/BlendFunc>
+#include <osg/Depth>
 #include <osg/MatrixTransform>
+#include <osg/PolygonOffset>
 
 #include <cmath>
 #include <sstream>
@@ -17,6 +23,7 @@ using namespace gnomon::examples;
 // The notes' numbers, y up.
 constexpr double floorHeight = -200.0, floorSide = 500.0, cubeSide = 100.0;
 const osg::Vec3d middle(0.0, 0.0, -511.0), viewer(0.0, 0.0, 200.0);
+const osg::Vec4d floorPlane(0.0, 1.0, 0.0, -floorHeight);
 constexpr float shadowOpacity = 0.4f;
 constexpr int squares = 10;           // of the checkerboard, a side
 constexpr double degreesAFrame = 1.0; // about x, y and z, as the notes' three rotations go
@@ -37,8 +44,12 @@ public:
         for (std::size_t i = 0; i < 6; ++i) {
             const auto first = faces.begin() + std::ptrdiff_t(6 * i);
             _cube->addChild(paintedUnlit(node(Mesh(first, first + 6)), {shades[i][0], shades[i][1], shades[i][2], 1}));
+            _faces->addChild(_cube->getChild(unsigned(i)));
         }
         _setup.group->addChild(_cube);
+        darkenByEach(*_faces->getOrCreateStateSet());
+        _faces->setNodeMask(0);
+        _setup.root->addChild(_faces);
         _shadow->setReceiver({floor});
         _setup.group->addChild(_shadow);
         _setup.techniques = {_shadow};
@@ -58,6 +69,7 @@ public:
         _source->getLight()->setPosition(
             _overhead ? osg::Vec4(0, 1, 0, 0)
                       : osg::Vec4(osg::Vec3d(std::cos(a) * std::cos(e), std::sin(e), std::sin(a) * std::cos(e)), 0.0));
+        flatten();
     }
     /// The notes' code scales y by zero, whatever the light: that is a light overhead.
     void toggleOverhead() {
@@ -66,7 +78,11 @@ public:
     }
     void toggleMotion() { _turns = !_turns; }
     /// The notes' blending darkens a pixel once for each face that falls on it.
-    void toggleCure() { _shadow->setStencilCure(!_shadow->getStencilCure()); }
+    void toggleFaces() {
+        const bool once = !darkensOnce();
+        _shadow->setNodeMask(once ? ~0u : 0u);
+        _faces->setNodeMask(once ? 0u : ~0u);
+    }
 
     std::vector<std::string> describe() const {
         std::ostringstream light;
@@ -74,13 +90,32 @@ public:
         std::vector<std::string> lines = {
             (_overhead ? "light overhead: y scaled by zero" : light.str()) + " (k: the other)",
             std::string("each pixel is darkened ") +
-                (_shadow->getStencilCure() ? "once" : "for EACH FACE over it, as in the notes") + " (x: the other)",
+                (darkensOnce() ? "once" : "for EACH FACE over it, as in the notes") + " (x: the other)",
             std::string("the cube ") + (_turns ? "turns" : "stands") + " (j: the other)"};
         for (const std::string& cause : _setup.causes()) lines.push_back(cause);
         return lines;
     }
 
 private:
+    bool darkensOnce() const { return _faces->getNodeMask() == 0; }
+
+    /// Whatever colour is drawn, what stands there keeps 60 %.
+    static void darkenByEach(osg::StateSet& states) {
+        const float left = 1.0f - shadowOpacity;
+        states.setAttributeAndModes(new osg::BlendFunc(GL_ZERO, GL_CONSTANT_COLOR));
+        states.setAttribute(new osg::BlendColor(osg::Vec4(left, left, left, left)));
+        states.setAttributeAndModes(new osg::Depth(osg::Depth::LESS, 0.0, 1.0, false));
+        states.setAttributeAndModes(new osg::PolygonOffset(-1.0f, -1.0f)); // over the floor, in which they lie
+        states.setRenderBinDetails(1, "RenderBin");
+    }
+
+    /// The notes' matrix, which lays the faces onto the floor.
+    void flatten() {
+        const auto flat = gnomon::planarShadowMatrix(gnomon::toGlm(floorPlane),
+                                                     gnomon::toGlm(osg::Vec4d(_source->getLight()->getPosition())));
+        if (flat) _faces->setMatrix(_cube->getMatrix() * gnomon::toOsg(*flat));
+    }
+
     static osg::ref_ptr<osg::Node> makeFloor() {
         const osg::Vec3d corner(middle.x() - floorSide / 2.0, floorHeight, middle.z() + floorSide / 2.0);
         osg::ref_ptr<osg::Node> floor = paintedUnlit(
@@ -97,11 +132,13 @@ private:
         const double angle = osg::DegreesToRadians(_angle);
         _cube->setMatrix(osg::Matrixd::rotate(angle, osg::X_AXIS, angle, osg::Y_AXIS, angle, osg::Z_AXIS) *
                          osg::Matrixd::translate(middle));
+        flatten();
     }
 
     SceneSetup _setup;
     osg::ref_ptr<osg::MatrixTransform> _cube = new osg::MatrixTransform;
-    osg::ref_ptr<gnomon::PlanarShadowNode> _shadow = new gnomon::PlanarShadowNode(osg::Vec4d(0, 1, 0, -floorHeight));
+    osg::ref_ptr<osg::MatrixTransform> _faces = new osg::MatrixTransform; ///< the cube's, flattened as the notes do.
+    osg::ref_ptr<gnomon::PlanarShadowNode> _shadow = new gnomon::PlanarShadowNode(floorPlane);
     osg::ref_ptr<osg::LightSource> _source;
     double _angle = 0.0, _azimuth = 35.0, _elevation = 65.0; // degrees
     bool _turns = false, _overhead = false;
@@ -112,7 +149,7 @@ const std::vector<Key<FakeShadow>> keys = {
     {'k', "Light overhead as in the notes' code, or at infinity from the side.",
      [](FakeShadow& c, Hud&) { c.toggleOverhead(); }},
     {'x', "Darken a pixel once, or once for each face over it as in the notes' code.",
-     [](FakeShadow& c, Hud&) { c.toggleCure(); }},
+     [](FakeShadow& c, Hud&) { c.toggleFaces(); }},
     {'g', "Hide or show the text.", [](FakeShadow&, Hud& hud) { hud.toggle(); }},
 };
 

@@ -25,7 +25,6 @@ using gnomon::ShadowCasterGroup;
 struct Switches {
     bool shadows = true, reflection = true, object = true, light = true, directional = true, motion = false;
     bool shownHalo = false, blendedHalo = true, relight = false;
-    bool shadowStencil = true, shadowOffset = true, reflectionStencil = true, haloStencil = true;
     int model = 0, texture = 1, shape = HaloNode::WHOLE;
 };
 
@@ -68,17 +67,13 @@ public:
         const Switches& s = switches;
         const auto mask = [](bool on) { return on ? ~0u : 0u; };
         _shadow->setNodeMask(mask(s.shadows && s.light && s.object));
-        _shadow->setStencilCure(s.shadowStencil);
-        _shadow->setOffsetCure(s.shadowOffset);
         _mirror->setReflectance(osg::Vec3f(1, 1, 1) * (s.reflection ? 1.0f - floorOpacity : 0.0f));
-        _mirror->setStencilCure(s.reflectionStencil);
         for (unsigned i = 0; i < _mirror->getNumChildren(); ++i) _mirror->getChild(i)->setNodeMask(mask(s.object));
         _models->setSingleChildOn(static_cast<unsigned>(s.model));
         _pulse->setAmplitude(mostHalo[s.model]);
         _halo->setShape(static_cast<HaloNode::Shape>(s.shownHalo ? s.shape : s.shape % HaloNode::PIXELS));
         _halo->setScale(s.shownHalo ? 1.0 + mostHalo[s.model] : 1.0);
         _halo->setColor(s.blendedHalo ? osg::Vec4f(0.8f, 0.8f, 0.0f, 0.3f) : osg::Vec4f(0.5f, 0.5f, 0.0f, 1.0f));
-        _halo->setStencilCure(s.haloStencil);
         _setup.group->setComposite(s.relight ? ShadowCasterGroup::RELIGHT : ShadowCasterGroup::BLEND);
         const float own = s.reflection ? 1.0f : floorOpacity; // without an image it lies over the black background
         (s.relight ? painted : paintedUnlit)(_floor, {own, own, own, 1}); // only what is lit can lose its light
@@ -98,11 +93,9 @@ public:
             string("model (n): ") + modelNames[s.model] + ", object (o) " + is(s.object) + ", motion (j) " +
                 is(s.motion),
             "halo (p: pulse, k: show) " + halo + ", " + (s.blendedHalo ? "blended" : "opaque") + " (e), " +
-                shapeNames[s.shape] + " (v), stencil (q) " + is(s.haloStencil),
-            string("shadows (a) ") + is(s.shadows) + ", " + (s.relight ? "relight" : "blend") + " (r), stencil (z) " +
-                is(s.shadowStencil) + ", offset (i) " + is(s.shadowOffset),
-            string("reflection (d) ") + is(s.reflection) + ", stencil (y) " + is(s.reflectionStencil) +
-                "; floor (x): " + textureNames[s.texture],
+                shapeNames[s.shape] + " (v)",
+            string("shadows (a) ") + is(s.shadows) + ", " + (s.relight ? "relight" : "blend") + " (r)",
+            string("reflection (d) ") + is(s.reflection) + "; floor (x): " + textureNames[s.texture],
             string("light (u) ") + is(s.light) + ", " + (s.directional ? "arrow: directional" : "ball: positional") +
                 " (9; drag with the middle button)"};
         for (const auto& causes : {_setup.causes(), _mirror->diagnose(), _halo->diagnose()})
@@ -161,7 +154,6 @@ const std::vector<Key<HaloMagic>> keys = {
     {'k', "Show the halo at its largest.", flip<&Switches::shownHalo>},
     {'e', "Blended or opaque halo.", flip<&Switches::blendedHalo>},
     {'v', "Halo around the whole model, around its parts, or by pixels.", next<&Switches::shape, 3>},
-    {'q', "Stencil for the halo; without it the halo covers the model several times.", flip<&Switches::haloStencil>},
     {'n', "Next model: dinosaur, sphere, cube, icosahedron.", next<&Switches::model, 4>},
     {'j', "Motion: the dinosaur jumps, the light circles.", flip<&Switches::motion>},
     {'u', "Light.", flip<&Switches::light>},
@@ -169,11 +161,7 @@ const std::vector<Key<HaloMagic>> keys = {
     {'x', "Texture filter of the floor: nearest, linear, mipmap, no texture.", next<&Switches::texture, 4>},
     {'a', "Shadows.", flip<&Switches::shadows>},
     {'r', "Shadows relight a lit floor, or blend over an unlit one as in the source.", flip<&Switches::relight>},
-    {'z', "Stencil for the shadow; without it pixels are darkened twice.", flip<&Switches::shadowStencil>},
-    {'i', "Depth offset for the shadow; without it the shadow z-fights with the floor.", flip<&Switches::shadowOffset>},
     {'d', "Reflection.", flip<&Switches::reflection>},
-    {'y', "Stencil for the reflection; without it the mirrored model shows beside the mirror.",
-     flip<&Switches::reflectionStencil>},
     {'o', "The object and its pillar.", flip<&Switches::object>},
     {'g', "Hide or show the text.", [](HaloMagic&, Hud& hud) { hud.toggle(); }},
 };

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "ShadowControls.h"
 
-#include <gnomon/PlanarShadowNode.h>
 #include <gnomon/ShadowVolumeTechnique.h>
 
 #include <algorithm>
@@ -10,8 +9,6 @@
 
 namespace gnomon::examples {
 namespace {
-
-const char* onOff(bool on) { return on ? "on" : "OFF"; }
 
 std::string whole(double number) { return std::to_string(std::lround(number)); }
 
@@ -80,11 +77,6 @@ void ShadowControls::runSun(double seconds) {
     _setup.lights->move(_moved, _setup.bounds.center());
 }
 
-void ShadowControls::toggle(bool PlanarCures::*cure) {
-    _cures.*cure = !(_cures.*cure);
-    applySwitches();
-}
-
 /// Of the technique that is shown.
 void ShadowControls::nextView() {
     if (draws<ShadowVolumeTechnique>()) _showsVolumes = !_showsVolumes;
@@ -106,11 +98,6 @@ void ShadowControls::applySwitches() {
         if (auto* map = dynamic_cast<ShadowMapTechnique*>(technique.get())) map->setView(_view);
         if (auto* volume = dynamic_cast<ShadowVolumeTechnique*>(technique.get()))
             volume->setView(_showsVolumes ? ShadowVolumeTechnique::VOLUMES : ShadowVolumeTechnique::NOTHING);
-        auto* planar = dynamic_cast<PlanarShadowNode*>(technique.get());
-        if (!planar) continue;
-        planar->setStencilCure(_cures.stencil);
-        planar->setOffsetCure(_cures.offset);
-        planar->setClipCure(_cures.clip);
     }
 }
 
@@ -121,8 +108,6 @@ void ShadowControls::toggleReports() {
 
 std::vector<std::string> ShadowControls::describe() const {
     std::vector<std::string> lines = {"shadow: " + describeShadow(), "light: " + describeLight()};
-    if (draws<PlanarShadowNode>() || !(_cures.stencil && _cures.offset && _cures.clip))
-        lines.push_back("cures: " + describeCures());
     if (_showsReports)
         for (const osg::ref_ptr<ShadowTechnique>& technique : _setup.techniques) {
             for (const ShadowDecision& decision : technique->lastDecision()) lines.push_back(decision.text());
@@ -152,11 +137,6 @@ std::string ShadowControls::describeLight() const {
            ", elevation " + whole(given->elevation + _moved.elevation) + " degrees";
 }
 
-std::string ShadowControls::describeCures() const {
-    return std::string("stencil ") + onOff(_cures.stencil) + ", offset " + onOff(_cures.offset) + ", clip " +
-           onOff(_cures.clip);
-}
-
 const std::vector<Key<ShadowControls>>& shadowKeys() {
     static const std::vector<Key<ShadowControls>> keys = {
         {'n', "Next shadow technique, or none.", [](ShadowControls& c, Hud&) { c.nextTechnique(); }},
@@ -166,12 +146,6 @@ const std::vector<Key<ShadowControls>>& shadowKeys() {
         {'k', "Turn the light 5 degrees clockwise.", [](ShadowControls& c, Hud&) { c.turnLight(step); }},
         {'u', "Raise the light 5 degrees.", [](ShadowControls& c, Hud&) { c.raiseLight(step); }},
         {'d', "Lower the light 5 degrees.", [](ShadowControls& c, Hud&) { c.raiseLight(-step); }},
-        {'x', "Planar shadows: stencil off and on, against double darkening.",
-         [](ShadowControls& c, Hud&) { c.toggle(&PlanarCures::stencil); }},
-        {'o', "Planar shadows: depth offset off and on, against z-fighting.",
-         [](ShadowControls& c, Hud&) { c.toggle(&PlanarCures::offset); }},
-        {'p', "Planar shadows: clipping off and on, against anti-shadows.",
-         [](ShadowControls& c, Hud&) { c.toggle(&PlanarCures::clip); }},
         {'v', "Show shadow maps, their texels, their cascades; or shadow volumes; or nothing.",
          [](ShadowControls& c, Hud&) { c.nextView(); }},
         {'i', "Show or hide what each technique did in the last frame, and look anew for what takes long to find.",

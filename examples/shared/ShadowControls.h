@@ -3,15 +3,13 @@
 #include "Keys.h"
 #include "SceneSetup.h"
 
-#include <gnomon/PlanarCures.h>
-
 #include <algorithm>
 #include <string>
 #include <vector>
 
 namespace gnomon::examples {
 
-/// What a user changes while looking: technique, composite, where the light is, and the cures of planar shadows.
+/// What a user changes while looking: technique, composite, and where the light is.
 class ShadowControls {
 public:
     ShadowControls(const ViewOptions& options, SceneSetup& setup);
@@ -25,7 +23,6 @@ public:
     void raiseLight(double degrees);
     /// Lets time go on over --sun's place; nights of up to a day are passed over. Seconds.
     void runSun(double seconds);
-    void toggle(bool PlanarCures::*cure);
     /// Next of the views of shadow maps.
     void nextView();
     /// Whether describe() says what each technique did in the last frame. Looks anew for causes that take long to find.
@@ -47,7 +44,6 @@ private:
     }
     std::string describeShadow() const;
     std::string describeLight() const;
-    std::string describeCures() const;
 
     SceneSetup& _setup;
     std::optional<SunMoment> _sun; ///< now.
@@ -55,7 +51,6 @@ private:
     std::size_t _chosen = 0;
     std::string _refusal; ///< why the chosen technique does not suit the scene, or the last key does nothing.
     SceneLights::Direction _moved{0.0, 0.0};
-    PlanarCures _cures;
     ShadowMapTechnique::View _view = ShadowMapTechnique::NOTHING;
     bool _showsVolumes = false, _showsReports = false;
 };

@@ -33,11 +33,6 @@ namespace gnomon {
 /// Source
 /// - M. Kilgard, halomagic.c.
 ///
-/// Cure
-/// - The stencil blends each pixel of the rim once. Switch the cure off to show the fault it prevents.
-/// - Off: every triangle of the enlarged children blends, over the children too. Free stencil bits limit how often: at
-///   most 7 times a pixel.
-///
 /// In a file (.osgt, .osgb, .osgx), properties left out have their defaults:
 ///
 ///     gnomon::HaloNode {
@@ -83,11 +78,6 @@ public:
     /// See setColor().
     const osg::Vec4f& getColor() const { return _color; }
 
-    /// On: each pixel of the rim is blended once, and the children stay free. Default on.
-    void setStencilCure(bool on) { _stencilCure = on; }
-    /// See setStencilCure().
-    bool getStencilCure() const { return _stencilCure; }
-
     /// True if the shape's own scale or width gives a rim.
     bool isOn() const { return _shape == PIXELS ? _width > 0 : _scale > 1.0; }
 
@@ -103,7 +93,6 @@ private:
     double _scale = 1.0;
     int _width = 3;
     osg::Vec4f _color{0.8f, 0.8f, 0.0f, 0.3f};
-    bool _stencilCure = true;
 };
 
 } // namespace gnomon

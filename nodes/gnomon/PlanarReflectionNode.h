@@ -46,9 +46,6 @@ class FrameColorCopy;
 /// Source
 /// - M. Kilgard, halomagic.c.
 ///
-/// Cure
-/// - The stencil keeps the image inside the surface. Switch the cure off to show the mirrored children beside it.
-///
 /// In a file (.osgt, .osgb, .osgx), properties left out have their defaults:
 ///
 ///     gnomon::PlanarReflectionNode {
@@ -84,11 +81,6 @@ public:
     /// See setReflectance().
     const osg::Vec3f& getReflectance() const { return _reflectance; }
 
-    /// On: the image ends at the surface's edges. Default on.
-    void setStencilCure(bool on) { _stencilCure = on; }
-    /// See setStencilCure().
-    bool getStencilCure() const { return _stencilCure; }
-
     /// The surface, if one is named.
     std::vector<Selection> namedParts() const override;
     /// Bounds of the children and their mirror images.
@@ -106,7 +98,6 @@ private:
     osg::Vec4d _plane{0.0, 0.0, 1.0, 0.0};
     ObservedSelection _surface;
     osg::Vec3f _reflectance{0.7f, 0.7f, 0.7f};
-    bool _stencilCure = true;
     std::shared_ptr<FrameColorCopy> _saved; ///< a frame that is still drawn keeps it.
 };
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/PlanarCures.h>
 #include <gnomon/ShadowTechnique.h>
 
 #include <osg/Vec4d>
@@ -54,20 +53,12 @@ struct PlanarPrograms;
 /// - J. Blinn, "Me and My (Fake) Shadow", IEEE CG&A 8(1), 1988.
 /// - CS-4470, "Fake Shadows"; GusOnGames; M. Kilgard, halomagic.c; Lab 8.
 ///
-/// Cures
-/// - Three cures prevent the classic faults of planar shadows. Switch one off to show its fault.
-/// - Stencil off: each flattened triangle multiplies its pixels by setDark(), so overlaps darken several times.
-///   Everything in the plane receives, even if a receiver is named. The casters are drawn twice.
-/// - Offset off: the flattened triangles fight the receiver for depth. The pattern depends on the OpenGL driver.
-/// - Clip off: parts under the plane or above a lamp cast anti-shadows. The compositor then works on the whole screen.
-///
 /// In a file (.osgt, .osgb, .osgx), properties left out have their defaults:
 ///
 ///     gnomon::PlanarShadowNode {
 ///       UniqueID 2
 ///       Receiver { Mask 0xffffffff Node TRUE { osg::Geode { UniqueID 7 } } }
 ///       Planes 1 { 0 0 1 -0.1 }
-///       ClipCure FALSE
 ///     }
 class GNOMON_EXPORT PlanarShadowNode : public ShadowTechnique {
 public:
@@ -86,19 +77,6 @@ public:
     void setPlanes(const std::vector<osg::Vec4d>& planes);
     /// The planes, as given.
     const std::vector<osg::Vec4d>& getPlanes() const { return _planes; }
-
-    /// On: a pixel is darkened once, however many triangles cover it. Default on.
-    void setStencilCure(bool on) { _cures.stencil = on; }
-    /// See setStencilCure().
-    bool getStencilCure() const { return _cures.stencil; }
-    /// On: the shadow does not fight the receiver for depth. Default on.
-    void setOffsetCure(bool on) { _cures.offset = on; }
-    /// See setOffsetCure().
-    bool getOffsetCure() const { return _cures.offset; }
-    /// On: only parts between the plane and the light cast. Default on.
-    void setClipCure(bool on) { _cures.clip = on; }
-    /// See setClipCure().
-    bool getClipCure() const { return _cures.clip; }
 
     /// Makes one mark for each plane that receives a shadow. See ShadowTechnique::prepare().
     std::vector<osg::ref_ptr<Mark>> prepare(const ViewFrame& view, const ShadowLight& light,
@@ -131,7 +109,6 @@ private:
                                   unsigned index, const glm::dvec4& groupPlane) const;
 
     std::vector<osg::Vec4d> _planes;
-    PlanarCures _cures;
     osg::ref_ptr<PlanarPrograms> _programs;
     std::unique_ptr<PlanarCasterCache> _casters;
 };

@@ -63,8 +63,6 @@ public:
     void stencilEqual(unsigned reference, unsigned test, unsigned write);
     /// Pass where any bit of `test` is set.
     void stencilAny(unsigned test);
-    /// Pass where the number that the bits of `test` make, from bit 0 on, is `least` or more.
-    void stencilAtLeast(unsigned least, unsigned test);
     /// Pass where any bit of `test` is set, and set `bits` to 0, whatever depth says.
     void takeStencil(unsigned test, unsigned bits);
     /// Stencil bits that nobody else uses, 0 before and after each step: several are the lowest ones, from bit 0 on, so

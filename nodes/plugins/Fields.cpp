@@ -53,6 +53,33 @@ void UnavailableWarning::objectRead(osgDB::InputStream&, osg::Object& object) {
     if (!why.empty()) OSG_WARN << "gnomon: " << technique.describe() << " is in the file. " << why << std::endl;
 }
 
+namespace {
+
+class RetiredSwitch : public osgDB::BaseSerializer {
+public:
+    explicit RetiredSwitch(const char* name) : BaseSerializer(READ_WRITE_PROPERTY), _name(name) {}
+    const std::string& getName() const override { return _name; }
+
+    bool read(osgDB::InputStream& in, osg::Object&) override {
+        bool on = true;
+        if (in.isBinary() || in.matchString(_name)) in >> on;
+        return true;
+    }
+    bool write(osgDB::OutputStream& out, const osg::Object&) override {
+        if (out.isBinary()) out << true;
+        return true;
+    }
+
+private:
+    const std::string _name;
+};
+
+} // namespace
+
+void addRetiredSwitch(osgDB::ObjectWrapper& wrapper, const char* name) {
+    wrapper.addSerializer(new RetiredSwitch(name), osgDB::BaseSerializer::RW_UNDEFINED);
+}
+
 bool writeOptions(osgDB::OutputStream& out, const CompositorOptions& options) {
     out << options.reservedStencilBits << options.skipsUntouched << std::endl;
     return true;

@@ -100,6 +100,9 @@ public:
     void objectRead(osgDB::InputStream& in, osg::Object& object) override;
 };
 
+/// A switch that no class has any more: files that have it are read, and it is forgotten. Binary files keep its place.
+void addRetiredSwitch(osgDB::ObjectWrapper& wrapper, const char* name);
+
 /// Keeps a class's getCompositorOptions(), where they are not the defaults.
 template <typename Class>
 void addCompositorOptions(osgDB::ObjectWrapper& wrapper) {

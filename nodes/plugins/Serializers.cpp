@@ -227,11 +227,10 @@ GNOMON_WRAPPER(ShadowTechnique, nullptr, "osg::Object osg::Node osg::Geode", "")
 
 GNOMON_WRAPPER(PlanarShadowNode, new gnomon::PlanarShadowNode, "osg::Object osg::Node osg::Geode",
                "gnomon::ShadowTechnique") {
-    const osg::ref_ptr<const MyClass> fresh = new MyClass;
     addList<MyClass, &MyClass::getPlanes, &MyClass::setPlanes>(*wrapper, "Planes");
-    ADD_BOOL_SERIALIZER(StencilCure, fresh->getStencilCure());
-    ADD_BOOL_SERIALIZER(OffsetCure, fresh->getOffsetCure());
-    ADD_BOOL_SERIALIZER(ClipCure, fresh->getClipCure());
+    fields::addRetiredSwitch(*wrapper, "StencilCure");
+    fields::addRetiredSwitch(*wrapper, "OffsetCure");
+    fields::addRetiredSwitch(*wrapper, "ClipCure");
 }
 
 /// Windows made later have alpha bits.
@@ -296,7 +295,7 @@ GNOMON_WRAPPER(HaloNode, new gnomon::HaloNode, "osg::Object osg::Node osg::Group
     fields::addExact(*wrapper, "Scale", &MyClass::getScale, &MyClass::setScale);
     ADD_INT_SERIALIZER(Width, fresh->getWidth());
     fields::addExact(*wrapper, "Color", &MyClass::getColor, &MyClass::setColor);
-    ADD_BOOL_SERIALIZER(StencilCure, fresh->getStencilCure());
+    fields::addRetiredSwitch(*wrapper, "StencilCure");
     fields::addCompositorOptions<MyClass>(*wrapper);
 }
 
@@ -305,10 +304,9 @@ GNOMON_WRAPPER(HaloPulse, new gnomon::HaloPulse, "osg::Object osg::Callback", ""
 }
 
 GNOMON_WRAPPER(PlanarReflectionNode, new gnomon::PlanarReflectionNode, "osg::Object osg::Node osg::Group", "") {
-    const osg::ref_ptr<const MyClass> fresh = new MyClass;
     fields::addExact(*wrapper, "Plane", &MyClass::getPlane, &MyClass::setPlane);
     fields::addSelection<MyClass, &MyClass::getSurface, &MyClass::setSurface>(*wrapper, "Surface");
     fields::addExact(*wrapper, "Reflectance", &MyClass::getReflectance, &MyClass::setReflectance);
-    ADD_BOOL_SERIALIZER(StencilCure, fresh->getStencilCure());
+    fields::addRetiredSwitch(*wrapper, "StencilCure");
     fields::addCompositorOptions<MyClass>(*wrapper);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// halomagic: shadow, reflection and halo, each where it belongs and nowhere else; each switch and the fault it shows.
+// halomagic: shadow, reflection and halo, each where it belongs and nowhere else; each switch.
 #include "ExampleProgram.h"
 
 #include <algorithm>
@@ -105,30 +105,6 @@ TEST_F(Halomagic, AnOpaqueHaloHidesWhatIsBehindIt) {
     EXPECT_GT(expectEach(*keys("n"), *keys("nke"), [](const Color&) { return Color(128.0, 128.0, 0.0); }), 5000);
 }
 
-TEST_F(Halomagic, WithoutHaloStencilTheModelIsCovered) {
-    const auto without = keys("n"), with = keys("nkq");
-    const osg::Vec3d was = colorAt(*without, 290, 310), now = colorAt(*with, 290, 310); // on the sphere
-    ASSERT_TRUE(isBlue(was));
-    EXPECT_LE(apart(now, haloOver(was)), 1.6) << "its front alone is before the sphere";
-    const Mask twice = maskOf(
-        *without, *with, [](const Color& under, const Color& c) { return apart(c, haloOver(haloOver(under))) < 1.6; });
-    EXPECT_GT(count(twice), 3000) << "the rim has a front and a back";
-}
-
-TEST_F(Halomagic, WithoutShadowStencilPixelsDarkenTwice) {
-    const Mask twice = maskOf(*keys("a"), *keys("z"), [](const Color& lit, const Color& now) {
-        return apart(lit, now) > 2.0 && apart(now, lit * 0.25) < 2.1;
-    });
-    EXPECT_GT(count(twice), 500);
-}
-
-TEST_F(Halomagic, WithoutOffsetTheShadowFightsTheFloor) {
-    const auto none = keys("a"), on = keys(""), off = keys("i");
-    const Mask shadow = differing(*none, *on), fought = differing(*none, *off);
-    EXPECT_EQ(beyond(fought, shadow), 0);
-    EXPECT_LT(count(fought), count(shadow) * 99 / 100);
-}
-
 TEST_F(Halomagic, RelightTakesTheLightFromALitFloor) {
     const auto none = keys("ar"), on = keys("r");
     const Mask shadow = differing(*none, *on);
@@ -139,7 +115,7 @@ TEST_F(Halomagic, RelightTakesTheLightFromALitFloor) {
 
 TEST_F(Halomagic, EverySwitchIsSeenAndSwitchedBack) {
     const auto base = keys("");
-    for (const std::string key : {"k", "u", "9", "x", "a", "r", "z", "d", "o"}) {
+    for (const std::string key : {"k", "u", "9", "x", "a", "r", "d", "o"}) {
         EXPECT_GT(count(differing(*keys(key), *base)), 100) << key;
         const std::string back = key == "x" ? "xxxx" : key + key;
         EXPECT_EQ(count(differing(*keys(back), *base)), 0) << key;
@@ -168,9 +144,7 @@ TEST_F(Halomagic, KeysAndMouseAreSeenInItsWindow) {
         "the halo pulses", [&](const Screenshot& p) { return p != first; }, false);
     EXPECT_NO_THROW(desktop->pictureWhere("the pulse is over", [&](const Screenshot& p) { return p == first; }));
     EXPECT_NE(changed("the middle button", [&] { desktop->drag(2, 40, -20); }), first);
-    EXPECT_EQ(count(differing(*keys(""), *keys("y"))), 0) << "from up here all of the image lies behind the floor";
     EXPECT_NE(changed("the left button", [&] { desktop->drag(1, 0, -170); }), first);
-    expectSwitches({"y"}); // from low down the image leaves the floor's near edge
     expectMotionAfter("j");
     desktop->press("j");
     pressed("g");

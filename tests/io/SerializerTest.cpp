@@ -55,9 +55,6 @@ osg::ref_ptr<PlanarShadowNode> planarOf(const Selection& receiver) {
     osg::ref_ptr<PlanarShadowNode> result = new PlanarShadowNode;
     result->setReceiver(receiver);
     result->setPlanes(delicate);
-    result->setStencilCure(false);
-    result->setOffsetCure(false);
-    result->setClipCure(false);
     result->setName("floor's shadow");
     result->setNodeMask(0x10u);
     result->addDrawable(new osg::Geometry);
@@ -89,7 +86,6 @@ osg::ref_ptr<PlanarReflectionNode> mirrorOf(const Selection& surface) {
     result->setSurface(surface);
     result->setPlane(delicate[0]);
     result->setReflectance({0.1f, third, half});
-    result->setStencilCure(false);
     result->setCompositorOptions(options);
     return result;
 }
@@ -100,13 +96,12 @@ osg::ref_ptr<HaloNode> haloOf() {
     result->setScale(1.0 + 1.0 / 3.0);
     result->setWidth(5);
     result->setColor({0.1f, 0.2f, third, 1e-7f});
-    result->setStencilCure(false);
     result->setCompositorOptions(options);
     result->setUpdateCallback(new gnomon::HaloPulse(0.1));
     return result;
 }
 
-/// Every enumerator, and one cure switched off at a time.
+/// Every enumerator.
 void addChoices(osg::Group& group) {
     for (int i = 0; i < 4; ++i) {
         osg::ref_ptr<ShadowMapTechnique> map = new ShadowMapTechnique;
@@ -118,9 +113,6 @@ void addChoices(osg::Group& group) {
         halo->setShape(HaloNode::Shape(i % 3));
         group.addChild(halo);
         osg::ref_ptr<PlanarShadowNode> planar = new PlanarShadowNode;
-        planar->setStencilCure(i != 0);
-        planar->setOffsetCure(i != 1);
-        planar->setClipCure(i != 2);
         planar->setReceiver({nullptr, i == 3 ? 0u : ~0u});
         group.addChild(planar);
     }
@@ -257,12 +249,14 @@ TEST(SceneFileText, SaysOfEachNodeWhatIsSetAndNothingOfDefaults) {
         EXPECT_FALSE(textOf(set, made).empty()) << name << " is not in the file";
         EXPECT_NE(textOf(fresh, made).empty(), name != "gnomon::HaloPulse") << name;
         for (const auto& serializer : wrapper.getSerializerList()) {
+            if (serializer->getName().find("Cure") != std::string::npos)
+                continue; // files of earlier versions have them
             ++properties;
             EXPECT_TRUE(isGiven(textOf(set, made), serializer->getName())) << name << "::" << serializer->getName();
             EXPECT_FALSE(isGiven(textOf(fresh, made), serializer->getName())) << name << "::" << serializer->getName();
         }
     });
-    EXPECT_GT(properties, 40u) << "the wrappers were not found";
+    EXPECT_GT(properties, 35u) << "the wrappers were not found";
 }
 
 TEST_P(SceneFile, KeepsEverySettingOfEveryNodeToTheBit) { expectSameOnceLoaded(*everySetting()); }
@@ -395,8 +389,7 @@ gnomon::ShadowCasterGroup {
   UniqueID 1
   Children 1 { gnomon::PlanarShadowNode { UniqueID 2
       Receiver { Mask 0xff Node FALSE }
-      Planes 2 { 0 0 1 -.5  1e0 0 0 3 }
-      ClipCure FALSE } }
+      Planes 2 { 0 0 1 -.5  1e0 0 0 3 } } }
   Casters { Mask 0xf0 Node FALSE }
   Composite BLEND
   Dark 0.25
@@ -412,7 +405,6 @@ gnomon::ShadowCasterGroup {
     const auto& node = childOf<PlanarShadowNode>(*group, 0);
     EXPECT_EQ(node.getReceiver().mask, 0xffu);
     EXPECT_EQ(node.getPlanes(), (std::vector<osg::Vec4d>{{0.0, 0.0, 1.0, -0.5}, {1.0, 0.0, 0.0, 3.0}}));
-    EXPECT_TRUE(node.getStencilCure() && node.getOffsetCure() && !node.getClipCure());
 }
 
 /// As a file of an earlier version may have it.
@@ -426,6 +418,32 @@ TEST(SceneFileText, WithTheMethodDrapeLoadsAsHullAndSaysWhatTakesItsPlace) {
     EXPECT_EQ(loaded->getMethod(), TerrainShadowGeode::HULL);
     const std::string said = testing::internal::GetCapturedStderr();
     EXPECT_NE(said.find("Use hull on terrain, or map or traced"), std::string::npos) << said;
+}
+
+/// As files of earlier versions may have them: three of planar shadows, and one of a halo before its other properties.
+TEST(SceneFileText, WithCuresThatAreGoneKeepsAllElse) {
+    test::usePluginsOfThisBuild();
+    const auto halo = test::loadedAs<HaloNode>(R"(#Ascii Scene
+#Version 161
+#Generator by hand
+gnomon::HaloNode {
+  UniqueID 1
+  Children 1 { gnomon::PlanarShadowNode { UniqueID 2
+      Planes 1 { 0 0 1 -.5 }
+      StencilCure FALSE
+      OffsetCure TRUE
+      ClipCure FALSE } }
+  Width 5
+  StencilCure FALSE
+  CompositorOptions 165 FALSE
+}
+)",
+                                               "osgt");
+    ASSERT_TRUE(halo);
+    EXPECT_EQ(halo->getWidth(), 5);
+    EXPECT_EQ(halo->getCompositorOptions(), options);
+    EXPECT_EQ(childOf<PlanarShadowNode>(*halo, 0).getPlanes(), (std::vector<osg::Vec4d>{{0.0, 0.0, 1.0, -0.5}}));
+    EXPECT_EQ(test::written(*halo, "osgt").find("Cure"), std::string::npos) << "and forgets them";
 }
 
 /// A property that a later version could add, before all others of its class.
@@ -473,6 +491,18 @@ TEST(BinaryFile, OfTheVersionBeforeHasDefaultsForWhatCameLater) {
     EXPECT_EQ(loaded->getDark(), third);
     EXPECT_EQ(loaded->getClipping(), ShadowCasterGroup::GRAPH);
     EXPECT_TRUE(loaded->getTerminatorOffset());
+}
+
+TEST(BinaryFile, WithCuresThatAreGoneKeepsAllElse) {
+    test::usePluginsOfThisBuild();
+    const std::string file = test::written(*planarOf({nullptr, 0xffu}), "osgb");
+    std::string off = file;
+    const std::size_t cures = off.rfind(std::string(3, '\1'));
+    ASSERT_NE(cures, std::string::npos);
+    off.replace(cures, 3, 3, '\0');
+    const auto loaded = test::loadedAs<PlanarShadowNode>(off, "osgb");
+    ASSERT_TRUE(loaded);
+    EXPECT_TRUE(test::written(*loaded, "osgb") == file);
 }
 
 TEST(BinaryFile, OfAnotherVersionIsRefusedWithTheReason) {

@@ -199,48 +199,6 @@ TEST_F(Viewer, ASunThatRunsCastsToTheWestThenToTheEastAndOnTheNextMorningToTheWe
     EXPECT_NO_THROW(desktop->pictureWhere("morning", isWest, false));
 }
 
-TEST_F(Viewer, XShowsDoubleDarkeningOfTheGround) {
-    openUnderLamp();
-    const Screenshot none = glimpseWithoutShadow();
-    const Mask shadow = differing(first, none);
-    const Screenshot off = pressed("x");
-    int twice = 0;
-    for (std::size_t i = 0; i < off.pixels.size(); ++i) {
-        const int grey = int(none.pixels[i] & 0xffu), now = int(off.pixels[i] & 0xffu);
-        twice += isGrey(none.pixels[i]) && std::abs(now - grey / 4) <= 1;
-    }
-    EXPECT_LE(beyond(differing(off, none), shadow), 20) << "more than the feet of sphere and cube";
-    EXPECT_GT(twice, count(shadow) / 2); // a ray through a solid goes in and out
-    expectAfter("x", first);
-}
-
-TEST_F(Viewer, OShowsTheFightWithTheGround) {
-    openUnderLamp();
-    const Mask shadow = differing(first, glimpseWithoutShadow());
-    const Mask lit = differing(first, pressed("o"));
-    EXPECT_GT(count(lit), count(shadow) / 20);
-    EXPECT_LT(count(lit), count(shadow) * 19 / 20);
-    EXPECT_EQ(beyond(lit, shadow), 0);
-    expectAfter("o", first);
-}
-
-TEST_F(Viewer, PShowsTheAntiShadowOfWhatIsUnderground) {
-    openUnderLamp();
-    const Screenshot none = glimpseWithoutShadow();
-    const Mask anti = differing(first, pressed("p"));
-    EXPECT_GT(count(anti), 30); // the sphere's lowest quarter is under the ground, and the sphere hides most of it
-    EXPECT_EQ(beyond(differing(first, none), anti), count(differing(first, none))) << "lit before";
-    for (std::size_t i = 0; i < anti.size(); ++i) EXPECT_TRUE(!anti[i] || isGrey(none.pixels[i])) << "on the ground";
-    expectAfter("p", first);
-}
-
-TEST_F(Viewer, CuresStayOffWhenTheTechniqueChanges) {
-    openUnderLamp();
-    const Screenshot off = pressed("x");
-    withoutShadow();
-    expectAfter("n", off);
-}
-
 TEST_F(Viewer, GHidesTheTextAndNothingElse) {
     openUnderLamp();
     const Mask text = differing(withText, first);
@@ -267,7 +225,7 @@ TEST_F(Viewer, TheTextSaysWhatIsSwitched) {
     const auto textOf = [](const Screenshot& p) {
         return std::vector<std::uint32_t>(p.pixels.end() - width * 120, p.pixels.end());
     };
-    for (const char* key : {"x", "o", "p", "r", "k", "u", "v", "n", "x"}) { // v does nothing, and says so
+    for (const char* key : {"r", "k", "u", "v", "n"}) { // v does nothing, and says so
         const auto before = textOf(desktop->picture());
         desktop->press(key);
         EXPECT_NO_THROW(desktop->pictureWhere(std::string(key) + " shows in the text",

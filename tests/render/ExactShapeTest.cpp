@@ -51,6 +51,25 @@ TEST(ExactShape, LampAtTwiceTheHeightDoublesTheSquare) {
     EXPECT_EQ(render(scene.root, fromAbove(1.0, 64)).different(plain), 32 * 32 - 16 * 16);
 }
 
+// A square under the ground, one above a lamp, and a box through the ground, of whose shadow, x = -1 … 1, its top hides one half.
+TEST(ExactShape, WhatIsUnderThePlaneOrAboveALampCastsNothing) {
+    struct {
+        Mesh caster;
+        osg::Vec4d light;
+        int pixels;
+    } const cases[] = {{square(0.5, -1.0), {1.0, 0.0, 1.0, 0.0}, 0},
+                       {moved(square(0.5, 2.0), {1.0, 0.0, 0.0}), {0.0, 0.0, 1.0, 1.0}, 0},
+                       {box({-0.5, -0.5, -1.0}, {0.5, 0.5, 1.0}), {1.0, 0.0, 1.0, 0.0}, 32 * 32}};
+    for (const auto& each : cases)
+        for (const bool named : {true, false}) {
+            Scene scene = groundScene({each.caster}, 8.0, each.light), lit = scene;
+            const Picture plain = render(lit.root, fromAbove(4.0));
+            scene.addShadow(planar(named ? find(*scene.root, "ground") : nullptr));
+            EXPECT_EQ(render(scene.root, fromAbove(4.0)).different(plain), each.pixels)
+                << each.light.x() << each.light.w() << named;
+        }
+}
+
 // Sphere of radius R under a sun at elevation e: an ellipse of semi-axes R and R / sin e. Seen from above the sphere
 // hides part of it.
 TEST(ExactShape, SphereCastsTheEllipseOfItsElevation) {

@@ -128,37 +128,6 @@ TEST(Halo, BlendsAPixelUnderManyTrianglesOnce) {
     EXPECT_EQ(blendedOnce(*watched.halo, watched.with(), watched.without()), 80 * 64 - 48 * 32);
 }
 
-TEST(Halo, WithoutTheStencilCureBlendsForEachTriangleAndCoversTheModel) {
-    Watched watched({level(-0.25, 0.0, 0.5, 1.0), level(0.25, 0.0, 0.5, 1.5)});
-    watched.halo->setShape(HaloNode::PARTS);
-    watched.halo->setScale(2.0);
-    watched.halo->setStencilCure(false);
-    const glm::dvec3 once = blended(*watched.halo, floorColor), twice = blended(*watched.halo, once);
-    const auto expect = [](const Picture& picture, int x, int y, const glm::dvec3& color) {
-        const glm::dvec3 off = glm::abs(colorAt(picture, 128 + x, 128 + y) - color);
-        EXPECT_LE(std::max({off.x, off.y, off.z}), 2.0 * rounding) << x << " " << y;
-    };
-    const Picture parts = watched.with();
-    expect(parts, -39, 30, once);
-    expect(parts, 0, 30, twice);
-    watched.halo->setShape(HaloNode::WHOLE); // about z = 1.25: the higher square's is at 1.75, above that square
-    expect(watched.with(), 20, 0, blended(*watched.halo, modelColor));
-}
-
-// Of nine squares over one another; three stencil bits count.
-TEST(Halo, WithoutTheStencilCureBlendsNoMoreThanSevenTimes) {
-    std::vector<Panel> squares;
-    for (int i = 0; i < 9; ++i) squares.push_back(level(0.0, 0.0, 0.5, 1.0 + 0.1 * i));
-    Watched watched(squares);
-    watched.halo->setShape(HaloNode::PARTS);
-    watched.halo->setScale(2.0);
-    watched.halo->setStencilCure(false);
-    glm::dvec3 expected = floorColor;
-    for (int i = 0; i < 7; ++i) expected = blended(*watched.halo, expected);
-    const glm::dvec3 off = glm::abs(colorAt(watched.with(), 128 + 24, 128 + 10) - expected);
-    EXPECT_LE(std::max({off.x, off.y, off.z}), 7.0 * rounding);
-}
-
 TEST(Halo, OfPixelsIsTheDiscSweptAlongTheModelsOutline) {
     Watched watched({{{-1.0, -0.7, 1.0}, {1.9, 0.6, 0.0}, {-0.4, 1.3, 0.0}, glm::ivec3(modelColor), "slanted"},
                      {{1.5, 1.0, 1.0}, {0.6, 0.0, 0.0}, {0.0, 0.05, 0.0}, glm::ivec3(modelColor), "thin"}});
@@ -234,34 +203,28 @@ TEST(Halo, IsTheSameUnderTransformsFarAwayAndWithComputedNearAndFar) {
 }
 
 TEST(Halo, LeavesDepthStencilAndOpenGlAsTheyWere) {
-    for (const auto shape : {HaloNode::WHOLE, HaloNode::PIXELS})
-        for (const bool cure : {true, false}) {
-            Watched watched({level(0.0, 0.0, 0.5, 1.0)});
-            watched.halo->setShape(shape);
-            watched.halo->setStencilCure(cure);
-            expectNothingIsLeft(watched.root, above, [&](bool on) {
-                watched.halo->setWidth(on ? 3 : 0);
-                watched.halo->setScale(on ? 2.0 : 1.0);
-            });
-        }
+    for (const auto shape : {HaloNode::WHOLE, HaloNode::PIXELS}) {
+        Watched watched({level(0.0, 0.0, 0.5, 1.0)});
+        watched.halo->setShape(shape);
+        expectNothingIsLeft(watched.root, above, [&](bool on) {
+            watched.halo->setWidth(on ? 3 : 0);
+            watched.halo->setScale(on ? 2.0 : 1.0);
+        });
+    }
 }
 
 TEST(Halo, IsTheSameOverWhatOthersLeftInTheStencilBuffer) {
-    for (const auto& [shape, cure] : {std::pair(HaloNode::WHOLE, true),
-                                      {HaloNode::WHOLE, false},
-                                      {HaloNode::PIXELS, true},
-                                      {HaloNode::PIXELS, false}}) {
+    for (const auto shape : {HaloNode::WHOLE, HaloNode::PIXELS}) {
         Watched watched({level(0.0, 0.0, 0.5, 1.0)});
         watched.halo->setShape(shape);
         watched.halo->setScale(2.0);
         watched.halo->setWidth(3);
-        watched.halo->setStencilCure(cure);
         const Picture usual = watched.with();
         Camera camera(watched.root, above);
         osg::Camera& settings = *camera.viewer().getCamera();
         settings.setClearMask(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
         settings.setClearStencil(0xff);
-        EXPECT_EQ(camera.frame().different(usual), 0) << shape << cure;
+        EXPECT_EQ(camera.frame().different(usual), 0) << shape;
     }
 }
 
@@ -270,11 +233,6 @@ TEST(Halo, NeedsOneStencilBitAndSaysSoWhereThereIsNone) {
     watched.halo->setScale(2.0);
     const Picture without = watched.without();
     expectOneBitIsEnough(watched.root, *watched.halo, above, without);
-    test::reserving(watched.root, 0x7fu);
-    watched.halo->setStencilCure(false);
-    EXPECT_EQ(watched.with().different(without), 0);
-    ASSERT_FALSE(watched.halo->diagnose().empty());
-    EXPECT_NE(watched.halo->diagnose().back().find("cannot count triangles"), std::string::npos);
 }
 
 // Sun at 45°, a lit ground that mirrors half of what it sees, a caster with a halo: each does what it does alone.

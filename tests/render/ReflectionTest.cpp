@@ -244,25 +244,6 @@ TEST(Reflection, BlendsWhatIsTransparentInTheImageOnce) {
     expectSeen(render(mirrorOf(*scene, floorMirror), view), view, seenIn(panels, {floorMirror}));
 }
 
-TEST(Reflection, WithoutTheStencilCureHangsBesideTheSurfaceToo) {
-    std::vector<Panel> more = panels;
-    more.push_back({{4.5, 2.0, 0.2}, {1.0, 0.0, 0.0}, {0.0, 0.0, 1.5}, {90, 90, 90}, "beside"});
-    const auto node = mirrorOf(*group(more), floorMirror);
-    const Picture cured = render(node, view);
-    node->setStencilCure(false);
-    const Picture picture = render(node, view);
-    int beside = 0, wrong = 0;
-    for (int y = 0; y < view.height; ++y)
-        for (int x = 0; x < view.width; ++x) {
-            if (picture.at(x, y) == cured.at(x, y)) continue;
-            const auto met = meet(sight(view, x + 0.5, y + 0.5), more, [](const Panel&) { return true; });
-            ++beside;
-            wrong += met && met->panel->name == "floor";
-        }
-    EXPECT_GT(beside, 40);
-    EXPECT_LT(wrong, 40) << "edges";
-}
-
 TEST(Reflection, LeavesDepthStencilAndOpenGlAsTheyWere) {
     const auto node = mirrorOf(*group(panels), floorMirror);
     const gnomon::Selection floor = node->getSurface();
@@ -314,14 +295,12 @@ TEST(Reflection, KeepsShadowsOnItsSurface) {
 TEST(Reflection, CopiesFollowTheirOwnSurface) {
     auto scene = group(panels);
     const auto node = mirrorOf(*scene, floorMirror);
-    node->setStencilCure(false);
     const osg::ref_ptr<PlanarReflectionNode> copy =
         static_cast<PlanarReflectionNode*>(node->clone(osg::CopyOp::DEEP_COPY_NODES));
     EXPECT_EQ(copy->getSurface().node, find(*copy, "floor"));
     EXPECT_NE(copy->getSurface().node, node->getSurface().node);
     EXPECT_EQ(copy->getPlane(), node->getPlane());
     EXPECT_EQ(copy->getReflectance(), node->getReflectance());
-    EXPECT_FALSE(copy->getStencilCure());
 }
 
 TEST(Reflection, BoundHoldsTheImage) {

@@ -403,7 +403,7 @@ void LeafReplay::enter(osgUtil::RenderBin* bin) {
 /// The same for every leaf, so that osg::State need not know before the end.
 void LeafReplay::layOver() {
     _pattern.test(_overlay.stencilFunction, _overlay.reference, _overlay.test);
-    glStencilOp(GL_KEEP, GL_KEEP, _overlay.stencilPass);
+    glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
     glStencilMask(_overlay.write);
     if (_overlay.equalDepth || _overlay.keepDepth) {
         glDepthMask(GL_FALSE);

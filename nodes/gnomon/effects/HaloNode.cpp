@@ -21,9 +21,8 @@ class HaloEffect : public ViewEffect {
 public:
     HaloEffect() : ViewEffect(Turn::Last) {}
 
-    int width = 0;           ///< of a rim in pixels; 0 if the children are made larger instead.
-    osg::Vec4f color;        ///< red, green, blue and opacity.
-    bool stencilCure = true; ///< see HaloNode.
+    int width = 0;    ///< of a rim in pixels; 0 if the children are made larger instead.
+    osg::Vec4f color; ///< red, green, blue and opacity.
     osg::ref_ptr<SubgraphCull> children;
     std::vector<osg::Matrixd>
         larger; ///< eye space from drawable, of each of children->leaves(); empty where there is a rim in pixels.
@@ -34,14 +33,10 @@ public:
 private:
     void drawLarger(const CompositorStage& draw, LeafReplay::Overlay overlay) const;
     void markRim(const CompositorStage& draw, unsigned bit) const;
-    void blend(ScreenPass& screen) const;
-    void blendEachTriangle(const CompositorStage& draw) const;
 
     std::vector<DrawnLeaf> _leaves, _larger;
     std::vector<osg::ref_ptr<osgUtil::RenderLeaf>> _largerLeaves; ///< what `_larger` points to.
 };
-
-constexpr unsigned mostCounted = 7;
 
 /// All pixels of a disc.
 std::vector<glm::ivec2> disc(int radius) {
@@ -50,13 +45,6 @@ std::vector<glm::ivec2> disc(int radius) {
         for (int x = -radius; x <= radius; ++x)
             if (x * x + y * y <= radius * radius) pixels.push_back({x, y});
     return pixels;
-}
-
-/// Of the free bits those from bit 0 on, up to mostCounted: they count.
-unsigned countingBits(const std::vector<unsigned>& free) {
-    unsigned bits = 0;
-    for (unsigned bit = 1; bit <= mostCounted && std::count(free.begin(), free.end(), bit); bit <<= 1) bits |= bit;
-    return bits;
 }
 
 /// The leaves do not depend on what else the stage draws.
@@ -74,13 +62,12 @@ void HaloEffect::prepare(osgUtil::RenderStage&, const std::vector<DrawnLeaf>&) {
 }
 
 void HaloEffect::draw(const CompositorStage& draw) const {
-    if (!stencilCure) return blendEachTriangle(draw);
     const unsigned bit = draw.bits.front();
     draw.clearLeftovers(bit);
     markRim(draw, bit);
     draw.pass(wholeScreen, [&](ScreenPass& screen) {
         screen.takeStencil(bit, bit);
-        blend(screen);
+        screen.blendColor(osg::Vec3(color.x(), color.y(), color.z()), color.w());
     });
     draw.clear(bit, wholeScreen);
 }
@@ -104,30 +91,6 @@ void HaloEffect::markRim(const CompositorStage& draw, unsigned bit) const {
     seen.equalDepth = true;
     LeafReplay replay(draw, seen);
     for (const DrawnLeaf& entry : _leaves) replay.draw(entry);
-}
-
-void HaloEffect::blend(ScreenPass& screen) const {
-    screen.blendColor(osg::Vec3(color.x(), color.y(), color.z()), color.w());
-}
-
-/// Without the stencil cure: counts the triangles over each pixel, and blends as many times.
-void HaloEffect::blendEachTriangle(const CompositorStage& draw) const {
-    const unsigned bits = countingBits(draw.bits);
-    if (bits == 0)
-        return report("without the stencil cure the halo cannot count triangles, because stencil bit 0 is "
-                      "reserved. Leave bit 0 out of CompositorOptions::reservedStencilBits, or switch the cure on.");
-    draw.clearLeftovers(bits);
-    LeafReplay::Overlay count;
-    count.write = count.test = count.reference = bits;
-    count.stencilFunction = GL_NOTEQUAL; // else these bits would begin anew
-    count.stencilPass = GL_INCR;
-    drawLarger(draw, count);
-    for (unsigned times = 1; times <= bits; ++times)
-        draw.pass(wholeScreen, [&](ScreenPass& screen) {
-            screen.stencilAtLeast(times, bits);
-            blend(screen);
-        });
-    draw.clear(bits, wholeScreen);
 }
 
 constexpr double mostScale = 1000.0;
@@ -177,8 +140,7 @@ HaloNode::HaloNode(const HaloNode& other, const osg::CopyOp& copyOp)
       _shape(other._shape),
       _scale(other._scale),
       _width(other._width),
-      _color(other._color),
-      _stencilCure(other._stencilCure) {}
+      _color(other._color) {}
 
 void HaloNode::setShape(Shape shape) {
     _shape = shape == PARTS || shape == PIXELS ? shape : WHOLE;
@@ -222,7 +184,6 @@ osg::ref_ptr<ViewEffect> HaloNode::makeEffect(osgUtil::CullVisitor& cull) {
     effect->report = reportIn(frameOf(cull));
     effect->width = _shape == PIXELS ? _width : 0;
     effect->color = _color;
-    effect->stencilCure = _stencilCure;
     if (_shape == PIXELS) return effect;
     const std::vector<DrawnLeaf> leaves = effect->children->leaves();
     effect->larger = largerLeaves(*this, leaves, eyeFromNode);

@@ -32,7 +32,6 @@ public:
     osg::ref_ptr<const osg::Node> node; ///< whose effect it is.
     Selection surface;
     osg::Vec3f reflectance;
-    bool stencilCure = true;             ///< see PlanarReflectionNode.
     osg::ref_ptr<SubgraphCull> mirrored; ///< the children, as their leaves stand in the mirror.
     glm::dvec4 eyePlane{0.0};            ///< unit normal, towards the side that is mirrored.
     std::shared_ptr<FrameColorCopy> saved;
@@ -42,7 +41,7 @@ public:
 
 private:
     void drawSurface(const CompositorStage& draw, unsigned write, bool standing) const;
-    void drawImage(const CompositorStage& draw, unsigned reference, unsigned bit) const;
+    void drawImage(const CompositorStage& draw, unsigned bit) const;
     void mirrorPositions(const CompositorStage& draw) const;
     void restorePositions(const CompositorStage& draw) const;
     void mix(const CompositorStage& draw, unsigned bit) const;
@@ -100,8 +99,7 @@ void ReflectionEffect::draw(const CompositorStage& draw) const {
     });
     if (saves) {
         mirrorPositions(draw);
-        drawImage(draw, bit, bit);
-        if (!stencilCure) drawImage(draw, 0, bit);
+        drawImage(draw, bit);
         restorePositions(draw);
         mix(draw, bit);
         drawSurface(draw, bit, false);
@@ -124,14 +122,13 @@ void ReflectionEffect::drawSurface(const CompositorStage& draw, unsigned bit, bo
     for (const DrawnLeaf& entry : _surface) replay.draw(entry);
 }
 
-/// The mirrored leaves, where the bit is that of `reference`.
-void ReflectionEffect::drawImage(const CompositorStage& draw, unsigned reference, unsigned bit) const {
+/// The mirrored leaves, where the bit is.
+void ReflectionEffect::drawImage(const CompositorStage& draw, unsigned bit) const {
     LeafReplay::Overlay overlay;
     overlay.stencilFunction = GL_EQUAL;
-    overlay.reference = reference;
-    overlay.test = bit;
+    overlay.reference = overlay.test = bit;
     overlay.mirrored = true;
-    overlay.bounds = reference ? _bounds : wholeScreen;
+    overlay.bounds = _bounds;
     LeafReplay replay(draw, overlay);
     TouchTest touches(overlay.bounds);
     for (const DrawnLeaf& entry : _leaves)
@@ -182,7 +179,6 @@ PlanarReflectionNode::PlanarReflectionNode(const PlanarReflectionNode& other, co
       _plane(other._plane),
       _surface(other._surface, other),
       _reflectance(other._reflectance),
-      _stencilCure(other._stencilCure),
       _saved(std::make_shared<FrameColorCopy>()) {}
 
 PlanarReflectionNode::~PlanarReflectionNode() = default;
@@ -240,7 +236,6 @@ osg::ref_ptr<ViewEffect> PlanarReflectionNode::makeEffect(osgUtil::CullVisitor& 
         effect->report = reportIn(frameOf(cull));
         effect->surface = surface;
         effect->reflectance = _reflectance;
-        effect->stencilCure = _stencilCure;
         includeImages(cull, *effect->mirrored);
         return effect;
     }

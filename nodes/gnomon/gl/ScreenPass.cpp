@@ -81,11 +81,6 @@ void ScreenPass::stencilAny(unsigned test) {
     glStencilMask(0);
 }
 
-void ScreenPass::stencilAtLeast(unsigned least, unsigned test) {
-    stencilAny(test);
-    _pattern.test(GL_LEQUAL, least, test);
-}
-
 void ScreenPass::takeStencil(unsigned test, unsigned bits) {
     stencilAny(test);
     glStencilOp(GL_KEEP, GL_ZERO, GL_ZERO);

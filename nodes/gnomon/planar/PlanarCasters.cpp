@@ -114,7 +114,7 @@ PlanarMesh::PlanarMesh(const CasterMesh& given, bool findSolids, unsigned frame)
         if (!lists[solid]->empty()) parts.push_back({casterGeometry(*mesh, lists[solid]), false, solid});
 }
 
-PlanarParts::PlanarParts(const PlacedMesh& placed, const glm::dvec4& plane, bool under, bool findSolids, unsigned frame)
+PlanarParts::PlanarParts(const PlacedMesh& placed, const glm::dvec4& plane, bool findSolids, unsigned frame)
     : mesh(placed.mesh),
       sceneFromMesh(placed.sceneFromMesh),
       knowsSolids(findSolids),
@@ -123,7 +123,7 @@ PlanarParts::PlanarParts(const PlacedMesh& placed, const glm::dvec4& plane, bool
       high(-low) {
     const Heights heights(placed, plane);
     const LevelTriangles level(placed, plane, heights);
-    if (!under) lying = level.heights;
+    lying = level.heights;
     const bool seeks = findSolids && !(level.heights.y > 0.0); // a solid without its upper side is none
     const osg::DrawElementsUInt& all = *mesh->triangles;
     const ClosedParts closed = seeks ? closedPartsOf(*mesh, all) : ClosedParts();
@@ -133,7 +133,7 @@ PlanarParts::PlanarParts(const PlacedMesh& placed, const glm::dvec4& plane, bool
     double thickness = 0.0;
     for (unsigned i = 0; i + 2 < all.size(); i += 3) {
         const auto [lowest, top] = std::minmax({heights.of[all[i]], heights.of[all[i + 1]], heights.of[all[i + 2]]});
-        if (!(top > 0.0 || (under && lowest < 0.0)) || (!under && level.has[i / 3])) continue;
+        if (!(top > 0.0) || level.has[i / 3]) continue;
         osg::DrawElementsUInt& list = *lists[lowest < 0.0][seeks && closed.closed[i / 3]];
         for (unsigned corner = i; corner < i + 3; ++corner) {
             list.push_back(seeks ? closed.welded[all[corner]] : all[corner]);
@@ -183,14 +183,13 @@ PlanarParts::PlanarParts(const PlacedMesh& placed, const glm::dvec4& plane, cons
     }
 }
 
-PlanarCasters::PlanarCasters(const Casters& casters, const glm::dvec4& groupPlane, bool under)
+PlanarCasters::PlanarCasters(const Casters& casters, const glm::dvec4& groupPlane)
     : origin(casters.layers().origin),
       plane(SceneFrame(origin).plane(groupPlane)),
       low(std::numeric_limits<double>::infinity()),
       high(-low),
       _source(casters.retired()),
-      _groupPlane(groupPlane),
-      _under(under) {}
+      _groupPlane(groupPlane) {}
 
 void PlanarCasters::add(const osg::ref_ptr<const PlanarParts>& more) {
     _meshes.push_back(more);
@@ -228,29 +227,26 @@ void PlanarCasters::releaseGLObjects(osg::State* state) const {
     for (const PlanarPart& part : parts) part.geometry->releaseGLObjects(state);
 }
 
-/// Joined meshes by their triangles, bodies as wholes, but for those that lie in the plane in part. What is under the plane may
-/// lie in it: that each triangle tells.
-osg::ref_ptr<PlanarCasters> PlanarCasterCache::make(const Casters& casters, const glm::dvec4& groupPlane, bool under,
+/// Joined meshes by their triangles, bodies as wholes, but for those that lie in the plane in part.
+osg::ref_ptr<PlanarCasters> PlanarCasterCache::make(const Casters& casters, const glm::dvec4& groupPlane,
                                                     unsigned frame) {
-    const osg::ref_ptr<PlanarCasters> made = new PlanarCasters(casters, groupPlane, under);
+    const osg::ref_ptr<PlanarCasters> made = new PlanarCasters(casters, groupPlane);
     std::vector<osg::ref_ptr<PlanarCasters>> before;
     for (const auto& entry : _entries)
-        if (entry->isOf(groupPlane, under) && entry->plane == made->plane) before.push_back(entry);
+        if (entry->isOf(groupPlane) && entry->plane == made->plane) before.push_back(entry);
     const SceneFrame scene(casters.layers().origin);
     for (const PlacedMesh& placed : casters.layers().meshes()) {
         osg::ref_ptr<const PlanarParts> known;
-        const bool isBody = placed.isBody && !under;
         for (const auto& entry : before)
-            if (!known) known = isBody ? entry->at(made->size(), placed) : entry->find(placed);
-        if (isBody && (known ? known->whole.valid() : !hasLevelAbove(placed, made->plane))) {
+            if (!known) known = placed.isBody ? entry->at(made->size(), placed) : entry->find(placed);
+        if (placed.isBody && (known ? known->whole.valid() : !hasLevelAbove(placed, made->plane))) {
             const osg::ref_ptr<const PlanarMesh> whole = wholeOf(*placed.mesh, frame);
             if (!known || known->whole != whole) // else it stands still while others move
                 known = new PlanarParts(placed, made->plane, scene.point(placed.bounds._min),
                                         scene.point(placed.bounds._max), *whole);
         } else {
             if (!known || (!known->knowsSolids && known->firstFrame != frame))
-                known = new PlanarParts(placed, made->plane, under, known.valid(),
-                                        frame); // it stands still: the search pays
+                known = new PlanarParts(placed, made->plane, known.valid(), frame); // it stands still: the search pays
         }
         made->add(known);
     }
@@ -264,14 +260,14 @@ osg::ref_ptr<const PlanarMesh> PlanarCasterCache::wholeOf(const CasterMesh& mesh
     return known;
 }
 
-osg::ref_ptr<PlanarCasters> PlanarCasterCache::of(const Casters& given, const glm::dvec4& groupPlane, bool under,
-                                                  unsigned frame, std::size_t most) {
+osg::ref_ptr<PlanarCasters> PlanarCasterCache::of(const Casters& given, const glm::dvec4& groupPlane, unsigned frame,
+                                                  std::size_t most) {
     Lock lock(_mutex);
     osg::ref_ptr<PlanarCasters>* entry =
-        _entries.find([&](const auto& known) { return known->madeFrom(given, groupPlane, under); });
-    if (entry && (*entry)->seeksSolids(frame)) *entry = make(given, groupPlane, under, frame);
+        _entries.find([&](const auto& known) { return known->madeFrom(given, groupPlane); });
+    if (entry && (*entry)->seeksSolids(frame)) *entry = make(given, groupPlane, frame);
     if (!entry) {
-        const osg::ref_ptr<PlanarCasters> made = make(given, groupPlane, under, frame);
+        const osg::ref_ptr<PlanarCasters> made = make(given, groupPlane, frame);
         _entries.dropIf([](const auto& known) { return known->isRetired(); });
         entry = &_entries.add(made);
     }

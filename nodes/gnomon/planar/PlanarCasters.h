@@ -46,11 +46,10 @@ protected:
     ~PlanarMesh() override = default;
 };
 
-/// What of a mesh is above one plane. Triangles in the plane are left out, and those under it unless asked for. Never
-/// changed.
+/// What of a mesh is above one plane, without the triangles in the plane. Never changed.
 struct PlanarParts : public osg::Referenced {
-    /// Each triangle for itself. @param plane  unit normal, scene. @param under  keep what lies under the plane, too.
-    PlanarParts(const PlacedMesh& placed, const glm::dvec4& plane, bool under, bool findSolids, unsigned frame);
+    /// Each triangle for itself. @param plane  unit normal, scene.
+    PlanarParts(const PlacedMesh& placed, const glm::dvec4& plane, bool findSolids, unsigned frame);
     /// As a whole, cut by the plane if a triangle reaches below it or lies in it.
     PlanarParts(const PlacedMesh& placed, const glm::dvec4& plane, const glm::dvec3& low, const glm::dvec3& high,
                 const PlanarMesh& whole);
@@ -74,20 +73,19 @@ protected:
 };
 
 /// The casters that reach above one plane, ready to be drawn flattened: made once a revision and plane, never changed.
-/// Triangles in the plane are left out, and those under it unless asked for.
+/// Triangles in the plane and under it are left out.
 class PlanarCasters : public osg::Referenced {
 public:
     /// Of no mesh yet.
     /// @param groupPlane  unit normal, group frame.
-    /// @param under       keep what lies under the plane, too.
-    PlanarCasters(const Casters& casters, const glm::dvec4& groupPlane, bool under);
+    PlanarCasters(const Casters& casters, const glm::dvec4& groupPlane);
     /// The next one of the layers' meshes.
     void add(const osg::ref_ptr<const PlanarParts>& more);
 
-    bool madeFrom(const Casters& casters, const glm::dvec4& groupPlane, bool under) const {
-        return _source == casters.retired() && isOf(groupPlane, under);
+    bool madeFrom(const Casters& casters, const glm::dvec4& groupPlane) const {
+        return _source == casters.retired() && isOf(groupPlane);
     }
-    bool isOf(const glm::dvec4& groupPlane, bool under) const { return _groupPlane == groupPlane && _under == under; }
+    bool isOf(const glm::dvec4& groupPlane) const { return _groupPlane == groupPlane; }
     /// True if no view will ask for these any more.
     bool isRetired() const { return *_source; }
     /// True if in another frame than that of their making solids are to be looked for.
@@ -114,7 +112,6 @@ protected:
 private:
     Casters::Retired _source;
     glm::dvec4 _groupPlane;
-    bool _under;
     std::vector<osg::ref_ptr<const PlanarParts>> _meshes; ///< in the order of the layers.
 };
 
@@ -126,10 +123,10 @@ private:
 class PlanarCasterCache {
 public:
     /// The casters above a plane. It searches for solids in those meshes that were asked for in an earlier frame.
-    /// @param groupPlane,under  see PlanarCasters.
-    /// @param frame             the frame that asks.
-    /// @param most              how many it keeps.
-    osg::ref_ptr<PlanarCasters> of(const Casters& casters, const glm::dvec4& groupPlane, bool under, unsigned frame,
+    /// @param groupPlane  see PlanarCasters.
+    /// @param frame       the frame that asks.
+    /// @param most        how many it keeps.
+    osg::ref_ptr<PlanarCasters> of(const Casters& casters, const glm::dvec4& groupPlane, unsigned frame,
                                    std::size_t most);
     /// Drops those that no view will ask for.
     void letGo();
@@ -138,7 +135,7 @@ public:
 
 private:
     void dropUnused();
-    osg::ref_ptr<PlanarCasters> make(const Casters& casters, const glm::dvec4& groupPlane, bool under, unsigned frame);
+    osg::ref_ptr<PlanarCasters> make(const Casters& casters, const glm::dvec4& groupPlane, unsigned frame);
     osg::ref_ptr<const PlanarMesh> wholeOf(const CasterMesh& mesh, unsigned frame);
 
     mutable OpenThreads::Mutex _mutex;

@@ -46,10 +46,8 @@ bool PlanarMark::canReach(const osgUtil::RenderLeaf& leaf) const {
 }
 
 std::string PlanarMark::draw(ScreenPass& pass) const {
-    if (!cures.offset) fightReceiver();
     const bool drawn = drawParts(pass.renderInfo());
     if (cutToPlane) cut(pass);
-    if (!cures.stencil) darkenEach(pass);
     return drawn ? "" : noProgram;
 }
 
@@ -74,10 +72,10 @@ bool PlanarMark::drawParts(osg::RenderInfo& renderInfo) const {
 
 void PlanarMark::drawPart(osg::RenderInfo& renderInfo, const PlanarPart& part) const {
     const osg::State& state = *renderInfo.getState();
-    // A solid cut by the light's height may lack its upper faces; without the stencil cure each face darkens for itself.
-    const bool culls = part.solid && !reachesLight && cures.stencil, isClipped = clips(part);
-    const glm::dmat4 clipFromMesh = clipFromScene * part.sceneFromMesh, planes = glm::transpose(part.sceneFromMesh);
-    setUniform(state, "clipFromVertex", clipFromMesh);
+    // A solid cut by the light's height may lack its upper faces.
+    const bool culls = part.solid && !reachesLight, isClipped = clips(part);
+    const glm::dmat4 planes = glm::transpose(part.sceneFromMesh);
+    setUniform(state, "clipFromVertex", clipFromScene * part.sceneFromMesh);
     if (isClipped) {
         setUniform(state, "abovePlane", planes * (abovePlane - glm::dvec4(0.0, 0.0, 0.0, part.thickness)));
         setUniform(state, "belowLight", planes * belowLight);
@@ -87,28 +85,8 @@ void PlanarMark::drawPart(osg::RenderInfo& renderInfo, const PlanarPart& part) c
     if (culls) glEnable(GL_CULL_FACE);
     glFrontFace(mirrored != part.mirrored ? GL_CW : GL_CCW);
     part.geometry->draw(renderInfo);
-    if (!cures.clip && reachesLight) {
-        setUniform(state, "clipFromVertex", -clipFromMesh); // the same map: OpenGL draws only the half with w > 0
-        part.geometry->draw(renderInfo);
-    }
     glFrontFace(GL_CCW);
     for (const GLenum mode : {clipAbovePlane, clipBelowLight, GLenum(GL_CULL_FACE)}) glDisable(mode);
-}
-
-/// Without the offset cure: what is drawn must be nearer than what stands there, at the depth that rounding gives both.
-void PlanarMark::fightReceiver() const {
-    glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_LESS);
-}
-
-/// Without the stencil cure: each triangle darkens for itself where marked; then no marks are left.
-void PlanarMark::darkenEach(ScreenPass& pass) const {
-    pass.stencilAny(pass.bit());
-    glDisable(GL_DEPTH_TEST);
-    if (!cures.offset) fightReceiver();
-    pass.beginMultiply(dark);
-    drawParts(pass.renderInfo());
-    pass.clearStencil(pass.bit());
 }
 
 /// Takes the marks back where what stands in the depth buffer is behind the plane, and where it is before it.

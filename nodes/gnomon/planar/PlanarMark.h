@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/PlanarCures.h>
 #include <gnomon/compositor/ShadowJob.h>
 #include <gnomon/planar/PlanarCasters.h>
 
@@ -39,8 +38,6 @@ public:
     bool reachesLight = false; ///< some caster is as high as the light.
     bool mirrored = false;     ///< the view turns the sense of triangles round.
     bool cutToPlane = true;    ///< marks hold only where what one sees lies in the plane.
-    PlanarCures cures;
-    float dark = 0.5f; ///< factor that each triangle takes of what it covers; without the stencil cure only.
     /// The plane on the screen, normalised device coordinates: z = depth.x·x + depth.y·y + depth.z.
     glm::dvec3 depth{0.0};
     glm::dvec3 nearest{0.0},
@@ -60,10 +57,8 @@ protected:
 
 private:
     bool drawParts(osg::RenderInfo& renderInfo) const;
-    bool clips(const PlanarPart& part) const { return cures.clip && (part.crossing || reachesLight); }
+    bool clips(const PlanarPart& part) const { return part.crossing || reachesLight; }
     void drawPart(osg::RenderInfo& renderInfo, const PlanarPart& part) const;
-    void darkenEach(ScreenPass& pass) const;
-    void fightReceiver() const;
     void cut(ScreenPass& pass) const;
 };
 

@@ -166,7 +166,6 @@ double heightLimit(const PlanarClipPlanes& clip, const glm::dvec4& plane) {
 
 /// Where on the screen the flattened casters can lie.
 std::optional<ScreenRect> boundsOf(const PlanarMark& mark) {
-    if (!mark.cures.clip) return wholeScreen;
     std::vector<glm::dvec4> halfSpaces;
     if (mark.casters->crosses) halfSpaces.push_back(mark.abovePlane);
     if (mark.reachesLight) halfSpaces.push_back(mark.belowLight);
@@ -185,7 +184,6 @@ PlanarShadowNode::PlanarShadowNode(const osg::Vec4d& plane) : PlanarShadowNode()
 PlanarShadowNode::PlanarShadowNode(const PlanarShadowNode& other, const osg::CopyOp& copyOp)
     : ShadowTechnique(other, copyOp),
       _planes(other._planes),
-      _cures(other._cures),
       _programs(new PlanarPrograms),
       _casters(new PlanarCasterCache) {}
 
@@ -209,7 +207,7 @@ std::vector<osg::ref_ptr<Mark>> PlanarShadowNode::prepare(const ViewFrame& view,
                             "is zero or not a number. Give (a, b, c, d) of the plane a x + b y + c z + d = 0."));
             continue;
         }
-        const osg::ref_ptr<PlanarCasters> above = _casters->of(casters, *plane, !_cures.clip, view.frameNumber, most);
+        const osg::ref_ptr<PlanarCasters> above = _casters->of(casters, *plane, view.frameNumber, most);
         if (above->parts.empty())
             idle.push_back(_planes[i]);
         else if (osg::ref_ptr<Mark> mark = prepareOne(view, light, *above, i, *plane))
@@ -254,8 +252,6 @@ osg::ref_ptr<Mark> PlanarShadowNode::prepareOne(const ViewFrame& view, const Sha
     mark->belowLight = clip.belowLight;
     mark->reachesLight = heightLimit(clip, casters.plane) < casters.highest;
     mark->mirrored = isMirrored(view);
-    mark->cures = _cures;
-    mark->dark = view.group->getDark();
     const auto eyePlane = transformedPlane(toGlm(view.eyeFromGroup), groupPlane);
     const auto bounds = boundsOf(*mark);
     const auto depthAt = [&](double height) {
@@ -264,7 +260,7 @@ osg::ref_ptr<Mark> PlanarShadowNode::prepareOne(const ViewFrame& view, const Sha
     const auto depth = depthAt(0.0);
     if (!bounds || !depth || !eyePlane) return nullptr; // out of sight: nothing to say
     mark->eyePlane = *eyePlane;
-    mark->cutToPlane = !_cures.stencil || !receiverLiesIn(view, *eyePlane);
+    mark->cutToPlane = !receiverLiesIn(view, *eyePlane);
     mark->depthSteps = mark->cutToPlane ? PlanarMark::tolerance.y : 0.0; // so far off the plane is what may lie in it
     if (mark->cutToPlane) followOffsets(*mark, view);
     mark->screenBounds = *bounds;
