@@ -24,7 +24,7 @@ struct Cutting {
 };
 
 Cutting cuttingOf(GLenum mode) {
-    constexpr unsigned triangles = TriangleClusters::trianglesInRun;
+    constexpr unsigned triangles = 16;
     switch (mode) {
     case GL_TRIANGLES:
         return {3 * triangles, 0};

@@ -25,8 +25,6 @@ bool mayTouch(const osg::BoundingBox& box, const ScreenSides& sides);
 /// of it can be drawn again from the same arrays.
 class TriangleClusters : public osg::Referenced {
 public:
-    static constexpr unsigned trianglesInRun = 16;
-
     /// Consecutive corners within one primitive set.
     struct Run {
         unsigned primitiveSet, first, count;
@@ -40,10 +38,6 @@ public:
     /// False where of() gives null because the geometry is small.
     static bool isBig(const osg::Geometry& geometry);
 
-    /// Those of triangles, quads and triangle strips, however small; not kept.
-    /// @param geometry  plain: see of().
-    explicit TriangleClusters(const osg::Geometry& geometry);
-
     /// Runs that can touch a part of the screen, neighbours joined.
     /// @param test  of boxes in the drawable's frame; false for one leaves it out. May be empty.
     std::vector<Run> touching(const ScreenRect& bounds, const osg::Matrixd& clipFromLocal,
@@ -56,6 +50,8 @@ protected:
     ~TriangleClusters() override = default;
 
 private:
+    explicit TriangleClusters(const osg::Geometry& geometry);
+
     struct Cluster {
         Run run;
         osg::BoundingBox box;

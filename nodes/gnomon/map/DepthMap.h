@@ -40,8 +40,8 @@ struct MapPicture : public osg::Referenced {
     struct Mesh {
         osg::ref_ptr<const CullableFaces> faces;
         glm::dmat4 sceneFromMesh{1.0};
-        MapBox box;                       ///< in the scene.
-        CullableFaces::Outside outside{}; ///< where the light is.
+        MapBox box;          ///< in the scene.
+        bool outside = true; ///< see CullableFaces::isOutside().
 
         bool operator==(const Mesh& other) const {
             return faces == other.faces && sceneFromMesh == other.sceneFromMesh && outside == other.outside;

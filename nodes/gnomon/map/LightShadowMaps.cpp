@@ -188,8 +188,8 @@ MapPicture::Layer LightShadowMaps::drawnOf(const MapLayer& layer, bool again, Ma
         const bool moving = &layer == _faces.request().casters->moving;
         const auto faces = meshes.facesOf(*layer.meshes[i], _faces.flatsCast(), again && !isSettled(), moving);
         if (!faces) continue;
-        CullableFaces::Outside outside{false, false};
-        if (!isSettled()) outside = faces->outside(glm::inverse(placed.sceneFromMesh) * _faces.request().light);
+        bool outside = false;
+        if (!isSettled()) outside = faces->isOutside(glm::inverse(placed.sceneFromMesh) * _faces.request().light);
         drawn.meshes.push_back({faces, placed.sceneFromMesh, box, outside});
     }
     return drawn;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/casters/Casters.h>
+#include <gnomon/geometry/ScreenBounds.h>
 #include <gnomon/map/MapFaces.h>
 
 #include <glm/common.hpp>

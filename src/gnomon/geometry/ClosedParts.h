@@ -6,7 +6,7 @@
 
 namespace gnomon {
 
-/// Which triangles are connected, which bound a solid, whole or with holes, and which vertices stand at the same place.
+/// Which triangles are connected, which bound a solid, and which vertices stand at the same place.
 struct ClosedParts {
     /// For each vertex the first vertex of exactly the same position (-0 and 0 are the same).
     std::vector<unsigned> welded;
@@ -15,12 +15,6 @@ struct ClosedParts {
     /// For each triangle whether its connected part (over welded vertices) is closed and its faces look outwards: every
     /// edge is passed as often in one direction as in the other, and the enclosed volume is positive.
     std::vector<bool> closed;
-    /// For each triangle whether its part would be closed so were its holes filled, none of them is wide, and the part is one
-    /// sheet: each edge has two triangles at most, and over edges all are joined.
-    std::vector<bool> holed;
-    /// The holes of such parts: of each the triangles that fill it, three vertices each, turned as its part's are. A ray
-    /// that meets none of them from the front meets at least as many of the part's faces from the front as from behind.
-    std::vector<std::vector<unsigned>> holes;
 };
 
 /// @param positions  `vertexCount` finite positions.
