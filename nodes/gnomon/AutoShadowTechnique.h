@@ -29,7 +29,6 @@ class AutoChooser;
 /// - Of those that keep the error, the one of least work is taken. Work is weighed as processors or as graphics processors do it.
 /// - lastDecision() gives the candidates, with the choice and its reason.
 /// - The choice follows from facts of the scene and of its last frames: two runs of a program choose alike.
-/// - With a time, timer queries loosen or tighten the error. Then runs may differ.
 /// Changes
 /// - A scene that stands still is judged once, and once more if the light or a caster comes to rest.
 /// - In a scene that moves, candidates are judged again every 16 to 64 frames, and whenever the one that is
@@ -45,7 +44,6 @@ class AutoChooser;
 /// - A change of the choice costs the first frame of the technique that takes over.
 /// - Penumbras are never chosen. Use ShadowMapTechnique with SOFT edges for them.
 /// - Each light keeps the error alone.
-/// - A time has no effect on a renderer without timer queries. diagnose() says so.
 /// - ShadowQuery answers by rays.
 /// Threads
 /// - Any number of cull and draw threads. Set properties between frames.
@@ -64,7 +62,7 @@ public:
     AutoShadowTechnique(const AutoShadowTechnique& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
     META_Node(gnomon, AutoShadowTechnique)
 
-    /// Sets error and time at once. AutoShadowOptions::usable() says what becomes of values out of range.
+    /// Sets the budget. AutoShadowOptions::usable() says what becomes of values out of range.
     void setOptions(const AutoShadowOptions& options) { _options = options.usable(); }
     /// See setOptions().
     const AutoShadowOptions& getOptions() const { return _options; }
@@ -72,10 +70,6 @@ public:
     void setError(double pixels);
     /// See AutoShadowOptions::error.
     double getError() const { return _options.error; }
-    /// See AutoShadowOptions::time.
-    void setTime(double milliseconds);
-    /// See AutoShadowOptions::time.
-    double getTime() const { return _options.time; }
 
     /// The choices in the view that was drawn last, in the order of the lights' numbers. A light has one choice for the
     /// receivers of the opaque bins, which comes first. Receivers that are drawn late have one more, and so has each depth
@@ -91,7 +85,7 @@ public:
 
     /// See ShadowTechnique::letGo().
     void letGo() const override;
-    /// Keeps a time. See ShadowTechnique::watch().
+    /// Learns who draws. See ShadowTechnique::watch().
     osg::ref_ptr<DrawWatch> watch(const ViewFrame& view) const override;
     /// Registers the technique with the compositor in a cull traversal.
     void traverse(osg::NodeVisitor& visitor) override;

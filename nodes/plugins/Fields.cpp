@@ -91,4 +91,17 @@ CompositorOptions readOptions(osgDB::InputStream& in) {
     return options;
 }
 
+bool GoneNumber::read(osgDB::InputStream& in, osg::Object& object) {
+    if (!in.isBinary() && !in.matchString(_name)) return true;
+    if (readExact<double>(in) != 0.0)
+        OSG_NOTICE << "gnomon: " << _name << " of '" << object.getName() << "' has no effect any more: " << _now << "."
+                   << std::endl;
+    return true;
+}
+
+bool GoneNumber::write(osgDB::OutputStream& out, const osg::Object&) {
+    if (out.isBinary()) out << 0.0;
+    return true;
+}
+
 } // namespace gnomon::fields

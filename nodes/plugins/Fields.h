@@ -174,6 +174,22 @@ private:
     }
 };
 
+/// A number that a class had in an earlier version. A reader passes over it, and says so if it was set. Binary files, where
+/// properties have no names, keep its place with a 0.
+class GoneNumber : public osgDB::BaseSerializer {
+public:
+    /// @param now  what takes its place, for a sentence.
+    GoneNumber(std::string name, std::string now)
+        : BaseSerializer(READ_WRITE_PROPERTY), _name(std::move(name)), _now(std::move(now)) {}
+    const std::string& getName() const override { return _name; }
+
+    bool read(osgDB::InputStream& in, osg::Object& object) override;
+    bool write(osgDB::OutputStream& out, const osg::Object& object) override;
+
+private:
+    const std::string _name, _now;
+};
+
 /// What a new object has.
 template <typename Class, typename Given>
 std::decay_t<Given> fresh(Given (Class::*get)() const) {

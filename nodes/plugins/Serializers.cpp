@@ -285,7 +285,8 @@ GNOMON_WRAPPER(TracedShadowTechnique, new gnomon::TracedShadowTechnique, "osg::O
 GNOMON_WRAPPER(AutoShadowTechnique, new gnomon::AutoShadowTechnique, "osg::Object osg::Node osg::Geode",
                "gnomon::ShadowTechnique") {
     fields::addExact(*wrapper, "Error", &MyClass::getError, &MyClass::setError);
-    fields::addExact(*wrapper, "Time", &MyClass::getTime, &MyClass::setTime);
+    wrapper->addSerializer(new fields::GoneNumber("Time", "auto keeps the error alone"),
+                           osgDB::BaseSerializer::RW_USER);
 }
 
 GNOMON_WRAPPER(HaloNode, new gnomon::HaloNode, "osg::Object osg::Node osg::Group", "") {

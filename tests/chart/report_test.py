@@ -126,12 +126,6 @@ class Budgets(unittest.TestCase):
             point("Gnomon", "volume", "a", 4, 0.4 + 6e-15, text="volume")))  # fmt: skip
         self.assertEqual((row["kept"], row["best"]), (True, "volume, a"))
 
-    def test_of_time_are_judged_by_the_error(self):
-        (row, _) = report.budgets(results(
-            point("Gnomon", "auto", "time 5", 5.4, 0.9, text="auto:time=5ms"), point("Gnomon", "map", "a", 4, 0.6, text="map"),
-            point("Gnomon", "map", "b", 6, 0.1, text="map:size=256")))  # fmt: skip
-        self.assertEqual((row["kept"], row["best"], row["ratio"]), (True, "map, a", 0.9 / 0.6))
-
 
 class Files(unittest.TestCase):
     def run_on(self, name, content):

@@ -151,9 +151,8 @@ TEST(ShadowSpec, KeysAreReadAndSet) {
     EXPECT_EQ(parseShadowSpec("map:view=texels").map.view, ShadowMapTechnique::TEXELS);
 
     EXPECT_EQ(parseShadowSpec("auto").budget.error, 0.0);
-    const auto choice = made<AutoShadowTechnique>("auto:error=0.4,time=5,receiver=ground");
+    const auto choice = made<AutoShadowTechnique>("auto:error=0.4,receiver=ground");
     EXPECT_EQ(choice->getError(), 0.4);
-    EXPECT_EQ(choice->getTime(), 5.0);
     EXPECT_EQ(made<ShadowVolumeTechnique>("volume:view=volumes")->getView(), ShadowVolumeTechnique::VOLUMES);
     EXPECT_EQ(made<TerrainShadowGeode>("box")->getMethod(), TerrainShadowGeode::BOX);
     EXPECT_EQ(made<TerrainShadowGeode>("hull")->getMethod(), TerrainShadowGeode::HULL);
@@ -188,7 +187,8 @@ TEST(ShadowSpec, IsRefusedWithWhatIsAllowed) {
         {"map:lamp-size=-1", "lamp-size=-1" + cannot + "0 to 1e6, scene's unit."},
         {"map:radius=nan", "radius=nan" + cannot + "0 to 1e6, scene's unit."},
         {"auto:error=0", "error=0" + cannot + "auto, 0.01 to 100, pixels."},
-        {"auto:time=fast", "time=fast" + cannot + "unlimited, 0.01 to 10000, ms."},
+        {"auto:time=5",
+         "the technique auto has no key \"time\". Allowed: error, composite, dark, terminator, receiver."},
         {"planar:receiver=roof", "no node is named \"roof\" to receive the shadow. Names in the scene: ground. Give "
                                  "one of them as receiver=NAME."},
         {"traced:receiver=roof", "no node is named \"roof\" to receive the shadow. Names in the scene: ground. Give "

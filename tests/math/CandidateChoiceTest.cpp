@@ -4,28 +4,16 @@
 
 #include <gtest/gtest.h>
 
-#include <utility>
 #include <vector>
 
 using gnomon::ChoiceCandidate;
 using gnomon::ChoiceReason;
 using gnomon::chooseCandidate;
-using gnomon::ErrorControl;
 
 namespace {
 
 const std::vector<ChoiceCandidate> four = {
     {true, 1.5, 1.0}, {true, 0.8, 2.0}, {true, 0.3, 6.0}, {false, 0.0, 0.1}}; // the last would be wrong
-
-/// Errors, frame by frame, that a control asks for where the shadow takes time(error).
-std::vector<double> errorsOf(ErrorControl control, double wanted, int frames, double (*time)(double)) {
-    std::vector<double> errors;
-    for (int i = 0; i < frames; ++i) {
-        errors.push_back(control.error());
-        control.add(time(control.error()), wanted);
-    }
-    return errors;
-}
 
 } // namespace
 
@@ -58,54 +46,6 @@ TEST(CandidateChoice, StaysUntilAnotherSavesAFifth) {
 TEST(CandidateChoice, IsNoneWhereNoneIsUsable) {
     EXPECT_FALSE(chooseCandidate({}, 1.0));
     EXPECT_FALSE(chooseCandidate({{false, 0.1, 0.1}}, 1.0));
-}
-
-TEST(ErrorControl, FindsTheTightestErrorThatKeepsATime) {
-    const auto time = [](double error) { return 4.0 / error; };
-    const std::vector<double> errors = errorsOf({1.0, ErrorControl::tightest}, 3.0, 400, time);
-    EXPECT_EQ(errors.front(), 1.0);
-    EXPECT_EQ(errors.back(), 2.0) << "4 ms at 1 pixel, 2 at 2";
-    EXPECT_EQ(errorsOf({1.0, ErrorControl::tightest}, 20.0, 400, time).back(), 0.25) << "16 ms, and 32 at the next";
-    EXPECT_EQ(errorsOf({1.0, 1.0}, 20.0, 400, time).back(), 1.0) << "no tighter error was wanted";
-}
-
-TEST(ErrorControl, LoosensInFewFramesAndTriesATighterErrorSeldom) {
-    // Quick enough to be tried tighter, where it is too slow: 1 ms and 3, with 2.1 wanted.
-    const std::vector<double> errors =
-        errorsOf({1.0, 0.5}, 2.1, 10000, [](double error) { return error < 1.0 ? 3.0 : 1.0; });
-    int tight = 0, changes = 0;
-    for (std::size_t i = 1; i < errors.size(); ++i) {
-        tight += errors[i] < 1.0;
-        changes += errors[i] != errors[i - 1];
-    }
-    EXPECT_GT(changes, 2);
-    EXPECT_LE(changes, 20) << "each try waits twice as long as the one before";
-    EXPECT_LE(tight, 8 * changes / 2) << "eight frames show that it is too slow";
-}
-
-TEST(ErrorControl, WaitsBeforeEachTighterErrorAsLongAsBeforeTheFirst) {
-    ErrorControl control(8.0, 1.0);
-    std::vector<int> changes;
-    double before = control.error();
-    for (int i = 0, since = 0; i < 200; ++i) {
-        control.add(0.1, 1.0);
-        ++since;
-        if (control.error() == before) continue;
-        before = control.error();
-        changes.push_back(std::exchange(since, 0));
-    }
-    EXPECT_EQ(changes, (std::vector<int>{36, 36, 36})) << "4 that may be late, and 32 quick ones";
-}
-
-TEST(ErrorControl, HeedsNoSingleFrameAndSaysWhatIsTooSlow) {
-    ErrorControl control(1.0, 0.5);
-    for (int i = 0; i < 300; ++i) control.add(i % 3 ? 0.8 : 90.0, 1.0);
-    EXPECT_EQ(control.error(), 1.0);
-    for (int i = 0; i < 100; ++i) control.add(90.0, 1.0);
-    EXPECT_EQ(control.error(), ErrorControl::loosest);
-    EXPECT_TRUE(control.isTooSlow());
-    for (int i = 0; i < 10; ++i) control.add(0.8, 1.0);
-    EXPECT_FALSE(control.isTooSlow());
 }
 
 TEST(ShadowWork, TakesWhatItsPartsTake) {

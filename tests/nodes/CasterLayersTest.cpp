@@ -70,7 +70,7 @@ TEST(CasterLayers, ThatAreRetiredLeaveNothingInCaches) {
     gnomon::RaySceneCache trees;
     gnomon::PlanarCasterCache flattened;
     const auto traced = [&] { return trees.of(*row.kept.back(), "a test"); };
-    const auto flat = [&] { return flattened.of(*row.kept.back(), {0.0, 0.0, 1.0, 1.0}, false, 1, 8); };
+    const auto flat = [&] { return flattened.of(*row.kept.back(), {0.0, 0.0, 1.0, 1.0}, 1, 8); };
     row.next();
     const std::weak_ptr<const gnomon::RayScene> tree = traced();
     const osg::observer_ptr<gnomon::PlanarCasters> plane = flat().get();
@@ -88,7 +88,7 @@ TEST(CasterLayers, OfBodiesThatAreGoneLeaveNothingInPlanarsCache) {
     row.root->addChild(body());
     gnomon::PlanarCasterCache flattened;
     row.next();
-    flattened.of(*row.kept.back(), {0.0, 0.0, 1.0, 1.0}, false, 1, 8);
+    flattened.of(*row.kept.back(), {0.0, 0.0, 1.0, 1.0}, 1, 8);
     const osg::observer_ptr<const gnomon::CasterMesh> mesh = row.casters->still->meshes.front().mesh.get();
     row.root->removeChildren(0, 1);
     row.next();

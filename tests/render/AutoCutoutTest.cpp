@@ -51,7 +51,7 @@ struct Board {
 };
 
 struct Town : test::AutoTrial {
-    Town() : AutoTrial(test::town(6), {error, 0.0}, half, sun) { scene.content->addChild(board); }
+    Town() : AutoTrial(test::town(6), {error}, half, sun) { scene.content->addChild(board); }
     bool isMap() const { return chosen().rfind("map", 0) == 0; }
 
     const osg::ref_ptr<osg::Geode> board = Board().node();

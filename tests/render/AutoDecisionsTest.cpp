@@ -89,7 +89,7 @@ Picture drawnBy(const std::string& spec, const Flight& flight, const View& view)
 }
 
 void fly(const Flight& flight) {
-    const AutoTrial trial(flight.casters, {budget, 0.0}, flight.half, sun);
+    const AutoTrial trial(flight.casters, {budget}, flight.half, sun);
     Camera camera(trial.scene.root, flight.at(0.0));
     std::string before;
     unsigned decisions = 0, changes = 0;

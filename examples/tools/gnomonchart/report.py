@@ -281,7 +281,7 @@ def findings_text(found):
 
 def budgets(results):
     """What became of the budgets of auto: rows of the scene, setting, light, error, time, whether it was kept, and how
-    much it costs or errs beside the best fixed setting that keeps it. Processor time, which other work disturbs less."""
+    much it costs beside the best fixed setting that keeps it. Processor time, which other work disturbs less."""
     rows = []
     time = lambda point, light: point["cost"][f"{light}ProcessorMs"]["median"]  # noqa: E731
     wrong = lambda point: (point["errors"]["awayFromEdges"]["misclassified"] or 0.0) if point["errors"] else math.inf  # noqa: E731
@@ -290,20 +290,18 @@ def budgets(results):
         if auto["technique"] != "auto" or not auto["cost"]:
             continue
         asked = options(auto)
-        ms = float(asked["time"].removesuffix("ms")) if "time" in asked else None
-        px = math.inf if ms and "error" not in asked else float(asked.get("error", "1").removesuffix("px"))
+        px = float(asked.get("error", "1").removesuffix("px"))
         for light in LIGHTS:
-            measure = error_of if ms and math.isinf(px) else lambda point: time(point, light)  # noqa: E731, B023
-            keeps = lambda point: error_of(point) <= px and (not ms or time(point, light) <= ms) and not point["catastrophic"]  # noqa: E731, B023
+            keeps = lambda point: error_of(point) <= px and not point["catastrophic"]  # noqa: E731, B023
             rivals = [point for point in results["points"]
                       if point["scene"] == auto["scene"] and point["kit"] == OURS and point["technique"] != "auto"
                       and point["cost"] and keeps(point) and options(point).get("composite") == asked.get("composite")
                       and (point["technique"] not in ("planar", "box", "hull") or wrong(point) <= wrong(auto))]  # fmt: skip
-            best = min(rivals, key=measure, default=None)
+            best = min(rivals, key=lambda point: time(point, light), default=None)  # noqa: B023
             rows.append({"scene": auto["scene"], "setting": auto["setting"], "light": light, "px": error_of(auto),
-                         "ms": time(auto, light), "kept": error_of(auto) <= px and (not ms or time(auto, light) <= 1.1 * ms),
+                         "ms": time(auto, light), "kept": error_of(auto) <= px,
                          "best": best and f"{best['technique']}, {best['setting']}",
-                         "ratio": best and measure(auto) / max(measure(best), 1e-9)})  # fmt: skip
+                         "ratio": best and time(auto, light) / max(time(best, light), 1e-9)})  # fmt: skip
     return rows
 
 

@@ -14,7 +14,7 @@ namespace {
 
 using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
 
-constexpr unsigned keptRounds = 60; // what time= found out of views that are gone is let go
+constexpr unsigned keptRounds = 60; // culls without a caster: then all that is kept of casters is let go
 constexpr double memory = 0.9;      // of motion, from a frame to the next
 constexpr double atRest = 0.01;     // share of frames: 44 without motion after one with it
 constexpr unsigned firstLook = 2;   // frames after the first: what moves from the start is known by then
@@ -25,10 +25,6 @@ constexpr double muchMore = 1.5; // times as many triangles are another scene
 /// Share of the frames in which things move at least, in the long run: of maps that take the same where all stands still, the
 /// small one is taken.
 constexpr double rarely = 0.02;
-
-double usualError(const AutoShadowOptions& options) {
-    return options.error > 0.0 ? options.error : AutoShadowOptions::usualError;
-}
 
 double triangles(const Casters& casters) {
     double sum = 0.0;
@@ -160,28 +156,9 @@ AutoChooser::Drawn AutoChooser::choose(const ShadowInView& shadow, const Selecti
     choice.kind = shadow.view.kind;
     _lastStage = shadow.view.key.stage;
     _idleCulls = 0;
-    TimeKeeper* keeper = options.time > 0.0 ? &keeperOf(shadow.view.key.stage, options) : nullptr;
-    const Seen now = seenIn(shadow, receiver, keeper ? keeper->error() : usualError(options));
+    const Seen now = seenIn(shadow, receiver, options.error > 0.0 ? options.error : AutoShadowOptions::usualError);
     if (isDue(choice, now, shadow, receiver) || isOld(choice, now)) decide(choice, now, shadow, receiver);
-    Drawn drawn{_inner.of(choice.candidate, receiver, _choices.round()), {}};
-    for (const std::string& cause : {choice.cause, keeper ? keeper->whyNot() : ""})
-        if (!cause.empty()) drawn.causes.push_back(cause);
-    return drawn;
-}
-
-TimeKeeper& AutoChooser::keeperOf(const void* stage, const AutoShadowOptions& options) {
-    Keeper* known = _keepers.find([&](const Keeper& each) {
-        return each.stage == stage && each.error == options.error && each.keeper->time == options.time;
-    });
-    if (!known) {
-        const double finest = options.error > 0.0 ? options.error : ErrorControl::tightest;
-        known = &_keepers.add({stage, options.error, 0,
-                               new TimeKeeper(options.time, ErrorControl(usualError(options), finest), *_renderer)});
-    }
-    const unsigned round = known->lastRound = _choices.round();
-    TimeKeeper& keeper = *known->keeper;
-    _keepers.dropWhile([round](const Keeper& old) { return round - old.lastRound > keptRounds; });
-    return keeper;
+    return {_inner.of(choice.candidate, receiver, _choices.round()), choice.cause};
 }
 
 void AutoChooser::beginCull(bool isCurrent) {
@@ -198,10 +175,8 @@ void AutoChooser::forgetFacts() {
     _known = {};
 }
 
-osg::ref_ptr<DrawWatch> AutoChooser::watch(const void* stage, const AutoShadowOptions& options) {
-    if (!(options.time > 0.0) && _renderer->value != Renderer::Unknown) return nullptr;
-    Lock lock(_mutex);
-    return &keeperOf(stage, options);
+osg::ref_ptr<DrawWatch> AutoChooser::watch() const {
+    return _renderer->value == Renderer::Unknown ? _renderer : nullptr;
 }
 
 std::vector<ShadowDecision> AutoChooser::lastDecision() const {
@@ -228,11 +203,6 @@ unsigned AutoChooser::passes() const {
 void AutoChooser::forEach(const std::function<void(ShadowTechnique&)>& visit) const {
     Lock lock(_mutex);
     _inner.forEach(visit);
-}
-
-void AutoChooser::releaseGLObjects(osg::State* state) const {
-    Lock lock(_mutex);
-    for (const Keeper& each : _keepers) each.keeper->releaseGLObjects(state);
 }
 
 } // namespace gnomon

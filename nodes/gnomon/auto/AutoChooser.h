@@ -2,8 +2,7 @@
 #pragma once
 #include <gnomon/auto/AutoCandidate.h>
 #include <gnomon/auto/CandidateList.h>
-#include <gnomon/auto/TimeKeeper.h>
-#include <gnomon/base/RecentCache.h>
+#include <gnomon/auto/Renderer.h>
 #include <gnomon/group/PerView.h>
 
 #include <OpenThreads/Mutex>
@@ -18,7 +17,7 @@ namespace gnomon {
 /// What an AutoShadowTechnique remembers: the choice for each light in each view, and the techniques that draw.
 ///
 /// A choice follows from facts of the scene, and stays until another candidate is better by a margin, or until it is wrong.
-/// No clock and no measured frame has a part in it, but for time=.
+/// No clock and no measured frame has a part in it.
 ///
 /// Threads any number; one at a time decides.
 class AutoChooser {
@@ -26,15 +25,15 @@ public:
     /// What draws one light's shadow in one view, in this frame.
     struct Drawn {
         osg::ref_ptr<const ShadowTechnique> technique; ///< null: no shadow is drawn.
-        std::vector<std::string> causes;               ///< for ShadowTechnique::report(): the budget cannot be kept.
+        std::string cause;                             ///< for ShadowTechnique::report(): the budget cannot be kept.
     };
     Drawn choose(const ShadowInView& shadow, const Selection& receiver, const AutoShadowOptions& options);
 
     /// A cull begins. Lets all go that is kept of casters if none of the last culls had any.
     /// @param isCurrent  the thread may ask OpenGL, and so learns who draws.
     void beginCull(bool isCurrent);
-    /// What is to be learnt in the view's draw; null: nothing.
-    osg::ref_ptr<DrawWatch> watch(const void* stage, const AutoShadowOptions& options);
+    /// Learns who draws, in the view's draw; null: that is known.
+    osg::ref_ptr<DrawWatch> watch() const;
 
     /// Of the view that asked last, for each light and kind of receivers.
     std::vector<ShadowDecision> lastDecision() const;
@@ -43,7 +42,6 @@ public:
     /// Lets go what is known of casters.
     void forgetFacts();
     void forEach(const std::function<void(ShadowTechnique&)>& visit) const;
-    void releaseGLObjects(osg::State* state) const;
 
 private:
     /// Stands for what a choice was made for.
@@ -71,24 +69,14 @@ private:
         AutoMotion movingThen;  ///< when the candidates were compared.
     };
     Seen seenIn(const ShadowInView& shadow, const Selection& receiver, double error) const;
-    TimeKeeper& keeperOf(const void* stage, const AutoShadowOptions& options);
     bool isDue(Choice& choice, const Seen& now, const ShadowInView& shadow, const Selection& receiver);
     bool isOld(const Choice& choice, const Seen& now) const;
     void decide(Choice& choice, const Seen& now, const ShadowInView& shadow, const Selection& receiver);
-
-    /// Of the shadows of one view, while time= is set.
-    struct Keeper {
-        const void* stage;
-        double error; ///< that was asked for.
-        unsigned lastRound;
-        osg::ref_ptr<TimeKeeper> keeper;
-    };
 
     mutable OpenThreads::Mutex _mutex;
     InnerTechniques _inner;
     AutoKnowledge _known;
     PerView<Choice> _choices;
-    RecentCache<Keeper> _keepers;
     const osg::ref_ptr<RendererFact> _renderer = new RendererFact;
     unsigned _idleCulls = 0; ///< since the last choice.
     const void* _lastStage = nullptr;

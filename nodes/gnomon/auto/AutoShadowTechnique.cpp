@@ -23,15 +23,11 @@ std::vector<std::string> causesOf(const ShadowTechnique& technique) {
     return causes;
 }
 
-/// 0 for what is no number above 0.
-double within(double number, double least, double most) { return number > 0.0 ? std::clamp(number, least, most) : 0.0; }
-
 } // namespace
 
 AutoShadowOptions AutoShadowOptions::usable() const {
     AutoShadowOptions options;
-    options.error = within(error, leastError, mostError);
-    options.time = within(time, leastTime, mostTime);
+    if (error > 0.0) options.error = std::clamp(error, leastError, mostError);
     return options;
 }
 
@@ -42,15 +38,7 @@ AutoShadowTechnique::AutoShadowTechnique(const AutoShadowTechnique& other, const
 
 AutoShadowTechnique::~AutoShadowTechnique() = default;
 
-void AutoShadowTechnique::setError(double pixels) {
-    _options.error = pixels;
-    setOptions(_options);
-}
-
-void AutoShadowTechnique::setTime(double milliseconds) {
-    _options.time = milliseconds;
-    setOptions(_options);
-}
+void AutoShadowTechnique::setError(double pixels) { setOptions({pixels}); }
 
 std::vector<ShadowDecision> AutoShadowTechnique::lastDecision() const { return _chooser->lastDecision(); }
 
@@ -64,7 +52,7 @@ std::vector<osg::ref_ptr<Mark>> AutoShadowTechnique::prepare(const ViewFrame& vi
         return {};
     }
     const AutoChooser::Drawn drawn = _chooser->choose({view, light, casters, *usable}, getReceiver(), _options);
-    for (const std::string& cause : drawn.causes) report(view.frameNumber, cause);
+    if (!drawn.cause.empty()) report(view.frameNumber, drawn.cause);
     if (!drawn.technique) return {};
     drawn.technique->beginFrame(view.frameNumber, view.frameTime, view.key.stage);
     std::vector<osg::ref_ptr<Mark>> marks = drawn.technique->prepare(view, light, casters);
@@ -85,9 +73,7 @@ void AutoShadowTechnique::letGo() const {
     _chooser->forgetFacts();
 }
 
-osg::ref_ptr<DrawWatch> AutoShadowTechnique::watch(const ViewFrame& view) const {
-    return _chooser->watch(view.key.stage, _options);
-}
+osg::ref_ptr<DrawWatch> AutoShadowTechnique::watch(const ViewFrame&) const { return _chooser->watch(); }
 
 void AutoShadowTechnique::resizeGLObjectBuffers(unsigned maxSize) {
     ShadowTechnique::resizeGLObjectBuffers(maxSize);
@@ -97,7 +83,6 @@ void AutoShadowTechnique::resizeGLObjectBuffers(unsigned maxSize) {
 void AutoShadowTechnique::releaseGLObjects(osg::State* state) const {
     ShadowTechnique::releaseGLObjects(state);
     _chooser->forEach([state](ShadowTechnique& inner) { inner.releaseGLObjects(state); });
-    _chooser->releaseGLObjects(state);
 }
 
 } // namespace gnomon

@@ -64,13 +64,11 @@ struct ShadowJob {
     bool isOfLens(const osg::Matrixd& lens) const { return isSameLens(lens, *projection); }
 };
 
-/// Is told, in draw, when the compositor begins its work for one stage, and when it has done it.
+/// Is told, in draw, when the compositor begins its work for one stage.
 class DrawWatch : public osg::Referenced {
 public:
     /// State sets are off the stack. OpenGL's state stays as it is.
     virtual void begin(osg::RenderInfo& renderInfo) = 0;
-    /// The same. Only called after begin().
-    virtual void end(osg::RenderInfo& renderInfo) = 0;
 
 protected:
     ~DrawWatch() override = default;

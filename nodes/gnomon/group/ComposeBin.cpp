@@ -143,7 +143,6 @@ std::string ComposeBin::compose(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf
     learnQuadCut(); // for the next cull
     for (const osg::ref_ptr<DrawWatch>& watch : _watches) watch->begin(renderInfo);
     const std::string cause = compose(renderInfo, std::move(leaves), materials);
-    for (const osg::ref_ptr<DrawWatch>& watch : _watches) watch->end(renderInfo);
     if (last) pushLeafState(state, *last);
     previous = last;
     materials.restore();

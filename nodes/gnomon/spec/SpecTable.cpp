@@ -91,17 +91,12 @@ std::string receiverOf(const SpecTechnique& technique) {
     return technique.receiver.empty() ? "everything" : technique.receiver;
 }
 
-SpecKey budgetKey(SpecKey key, double AutoShadowOptions::*option, double least, double most, const char* unset) {
-    const Option<double> budget = {0.0, [option](ShadowSpec& spec, double value) { spec.budget.*option = value; }};
-    return wordKey(numberKey(std::move(key), budget, least, most), budget, {{unset, 0.0}});
-}
-
 std::vector<SpecKey> autoKeys() {
     using Budget = AutoShadowOptions;
-    return {budgetKey({"error", "largest error of the edge; auto is 1, with time= the least", "pixels"}, &Budget::error,
-                      Budget::leastError, Budget::mostError, "auto"),
-            budgetKey({"time", "most time that drawing a view's shadows may take", "ms"}, &Budget::time,
-                      Budget::leastTime, Budget::mostTime, "unlimited")};
+    const Option<double> error = {0.0, [](ShadowSpec& spec, double value) { spec.budget.error = value; }};
+    SpecKey key{"error", "largest error of the edge; auto is 1", "pixels"};
+    key = numberKey(std::move(key), error, Budget::leastError, Budget::mostError);
+    return {wordKey(std::move(key), error, {{"auto", 0.0}})};
 }
 
 std::vector<SpecKey> mapKeys() {
@@ -215,7 +210,7 @@ const std::vector<SpecTechnique>& specTechniques() {
         {"map", "shadow maps; on every visible surface", "", mapKeys()},
         {"volume", "stencil volumes; exact on every visible surface", "", volumeKeys()},
         {"traced", "one ray for each pixel by Embree; exact on every visible surface", "", {}, OptionalPart::Traced},
-        {"auto", "the cheapest of the others that keeps an error; a time loosens or tightens it", "", autoKeys()},
+        {"auto", "the cheapest of the others that keeps an error", "", autoKeys()},
     };
     return table;
 }
