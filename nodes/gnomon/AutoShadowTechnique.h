@@ -10,7 +10,7 @@ namespace gnomon {
 
 class AutoChooser;
 
-/// Casts shadows by the cheapest of the other techniques that keeps an error.
+/// Casts shadows by one of the other techniques, that keeps an error and is as cheap as any.
 ///
 /// Take it if you do not want to choose. Take one of the others if you know which: it then never changes.
 ///
@@ -25,15 +25,16 @@ class AutoChooser;
 /// - ShadowVolumeTechnique and TracedShadowTechnique, if no caster is clear in part.
 /// - A candidate whose shadow would be wrong here is never chosen. ShadowCandidate::obstacle says why.
 /// The rule
-/// - The error of each candidate is predicted from the shadow's edges in sight. Its work is counted: triangles, texels, pixels.
-/// - Of those that keep the error, the one of least work is taken. Work is weighed as processors or as graphics processors do it.
+/// - The error of each candidate is predicted from the shadow's edges in sight. Its work is counted: casters, triangles, texels,
+///   pixels. Work is weighed as the time that the processor and the renderer take together.
+/// - Of those that keep the error and take up to a quarter more than the cheapest, the most accurate is taken.
 /// - lastDecision() gives the candidates, with the choice and its reason.
 /// - The choice follows from facts of the scene and of its last frames: two runs of a program choose alike.
 /// Changes
 /// - A scene that stands still is judged once, and once more if the light or a caster comes to rest.
 /// - In a scene that moves, candidates are judged again every 16 to 64 frames, and whenever the one that is
 ///   drawn would become wrong.
-/// - Another candidate takes over only if it saves a fifth of the work. Both keep the error.
+/// - The candidate that is drawn is judged as if it took and erred a fifth less. So two that are alike do not take turns.
 /// Cost
 /// - In a frame without change: a look at the view, the light and the drawables in sight.
 /// - A decision: a few visits of casters and receivers. The candidate that is drawn costs what it costs alone.

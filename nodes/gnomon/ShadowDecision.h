@@ -17,7 +17,7 @@ struct ShadowCandidate {
     double time = 0.0;
     double still = 0.0;   ///< The same of a frame in which nothing moves.
     double flying = 0.0;  ///< The same of a frame in which the view moves alone, over many frames.
-    double moving = 0.0;  ///< The same of a frame in which the light or a caster moves.
+    double moving = 0.0;  ///< The same of a frame in which the light moves.
     std::string obstacle; ///< Why it cannot be used here. Empty if it can.
 };
 
@@ -28,7 +28,7 @@ struct GNOMON_EXPORT ShadowDecision {
     /// in a transparent bin. The shadow on them is drawn apart, by a choice of its own.
     std::string receivers;
     ShadowCandidate chosen; ///< What is drawn.
-    /// Which row of the rule fired: "the cheapest that keeps 1 px: its volumes have some 16 sides".
+    /// Which part of the rule fired: "the cheapest that keeps 1 px: its volumes have some 16 sides".
     std::string reason;
     bool keepsBudget = true; ///< False if no candidate keeps the error that is asked for.
     unsigned decisions = 0;  ///< How often the candidates have been compared so far, for this light and view.

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <vector>
 
 using gnomon::ChoiceCandidate;
@@ -31,16 +32,58 @@ TEST(CandidateChoice, IsTheMostAccurateWhereNoneKeepsTheError) {
     EXPECT_EQ(chooseCandidate(alike, 0.05)->index, 1u) << "the cheaper of two that are as accurate";
 }
 
-TEST(CandidateChoice, StaysUntilAnotherSavesAFifth) {
-    std::vector<ChoiceCandidate> two = {{true, 0.5, 1.0}, {true, 0.5, 1.2}};
+TEST(CandidateChoice, IsTheMostAccurateOfThoseThatTakeUpToAQuarterMoreThanTheCheapest) {
+    std::vector<ChoiceCandidate> three = {{true, 0.9, 1.0}, {true, 0.5, 1.2}, {true, 0.2, 1.3}};
+    EXPECT_EQ(chooseCandidate(three, 1.0)->index, 1u);
+    EXPECT_EQ(chooseCandidate(three, 1.0)->reason, ChoiceReason::MoreAccurate);
+    three[2].time = 1.25;
+    EXPECT_EQ(chooseCandidate(three, 1.0)->index, 2u);
+    three[2].error = 0.49;
+    EXPECT_EQ(chooseCandidate(three, 1.0)->index, 1u) << "the cheaper of two that are as accurate";
+    three[0].usable = false;
+    EXPECT_EQ(chooseCandidate(three, 1.0)->index, 1u);
+    EXPECT_EQ(chooseCandidate(three, 1.0)->reason, ChoiceReason::Cheapest);
+    three[2] = {true, 0.1, 1.6};
+    three[0] = {true, 1.1, 0.1};
+    EXPECT_EQ(chooseCandidate(three, 1.0)->index, 1u) << "what does not keep the error makes no other dear";
+}
+
+// A fifth better: 1 of 1.25 in time, and 0.8 of 1 in error.
+TEST(CandidateChoice, StaysUntilAnotherIsBetterByAFifth) {
+    std::vector<ChoiceCandidate> two = {{true, 0.5, 1.0}, {true, 0.5, 1.24}};
     EXPECT_EQ(chooseCandidate(two, 1.0, 1)->index, 1u);
     EXPECT_EQ(chooseCandidate(two, 1.0, 1)->reason, ChoiceReason::Kept);
-    two[1].time = 1.3;
+    two[1].time = 1.6;
     EXPECT_EQ(chooseCandidate(two, 1.0, 1)->index, 0u);
     two[1] = {true, 1.1, 1.05};
     EXPECT_EQ(chooseCandidate(two, 1.0, 1)->index, 0u) << "it does not keep the error any more";
     two[1] = {false, 0.5, 1.05};
     EXPECT_EQ(chooseCandidate(two, 1.0, 1)->index, 0u) << "it would be wrong";
+    two = {{true, 0.5, 1.0}, {true, 0.41, 1.0}};
+    EXPECT_EQ(chooseCandidate(two, 1.0)->index, 1u);
+    EXPECT_EQ(chooseCandidate(two, 1.0, 0)->index, 0u) << "hardly more accurate";
+    two[1].error = 0.35;
+    EXPECT_EQ(chooseCandidate(two, 1.0, 0)->index, 1u);
+}
+
+// Times and errors of two cross, as in a flight: first one is better by half, at the end the other.
+TEST(CandidateChoice, ChangesOnceWhereTwoCross) {
+    for (const bool byError : {false, true}) {
+        std::optional<std::size_t> chosen;
+        int changes = 0;
+        for (int i = 0; i <= 200; ++i) {
+            const double tilt = 0.005 * (i - 100) + (i % 2 ? 0.02 : -0.02); // with noise
+            std::vector<ChoiceCandidate> two = {{true, 0.5, 1.0}, {true, 0.5, 1.0}};
+            double ChoiceCandidate::*what = byError ? &ChoiceCandidate::error : &ChoiceCandidate::time;
+            two[0].*what *= 1.0 + tilt;
+            two[1].*what *= 1.0 - tilt;
+            const std::size_t next = chooseCandidate(two, 1.0, chosen)->index;
+            changes += chosen && next != *chosen;
+            chosen = next;
+        }
+        EXPECT_EQ(chosen, 1u);
+        EXPECT_EQ(changes, 1) << byError;
+    }
 }
 
 TEST(CandidateChoice, IsNoneWhereNoneIsUsable) {
@@ -48,14 +91,25 @@ TEST(CandidateChoice, IsNoneWhereNoneIsUsable) {
     EXPECT_FALSE(chooseCandidate({{false, 0.1, 0.1}}, 1.0));
 }
 
-TEST(ShadowWork, TakesWhatItsPartsTake) {
-    gnomon::ShadowWork work, more;
+TEST(ShadowWork, TakesTheTimeOfTheProcessorAndOfTheRenderer) {
+    gnomon::ShadowWork work;
     work.pixels = 1000.0;
-    more.triangles = 500.0;
-    gnomon::CostRates rates{};
+    work.triangles = 500.0;
+    gnomon::RendererRates rates{};
     rates.pixel = 0.002;
     rates.triangle = 0.01;
-    EXPECT_DOUBLE_EQ(timeOf(work, rates), 2.0);
-    work += more;
+    EXPECT_DOUBLE_EQ(rendererTime(work, rates), 7.0);
+    EXPECT_DOUBLE_EQ(processorTime(work), 0.0);
     EXPECT_DOUBLE_EQ(timeOf(work, rates), 7.0);
+    work.leaves = 1000.0;
+    const double drawn = processorTime(work);
+    EXPECT_GT(drawn, 0.0);
+    EXPECT_DOUBLE_EQ(rendererTime(work, rates), 7.0) << "leaves are the processor's";
+    EXPECT_DOUBLE_EQ(timeOf(work, rates), 7.0 + drawn);
+    work.leaves = 3000.0;
+    EXPECT_DOUBLE_EQ(processorTime(work), 3.0 * drawn);
+    rates.call = 0.5;
+    work.calls = 4.0;
+    EXPECT_DOUBLE_EQ(rendererTime(work, rates), 9.0) << "a call takes time of both";
+    EXPECT_GT(processorTime(work), 3.0 * drawn);
 }

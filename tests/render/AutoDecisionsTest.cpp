@@ -152,23 +152,25 @@ TEST(AutoDecisions, AreToldOfAllKindsOfReceiversAndTheUsualOnesFirst) {
     EXPECT_EQ(told(), std::vector<std::string>{"light 0: volume"}) << "the others are of earlier frames";
 }
 
-TEST(AutoCandidate, OfMapsAloneAMovingViewChangesWhatWasDrawn) {
-    gnomon::AutoCandidate volume, map;
-    volume.kind = gnomon::AutoCandidate::Kind::Volume;
-    map.kind = gnomon::AutoCandidate::Kind::Map;
-    const gnomon::CostRates& rates = gnomon::processorRates;
-    for (gnomon::AutoCandidate* each : {&volume, &map}) {
-        each->still.calls = 2.0 / rates.call; // 2 ms
-        each->change.calls = 10.0 / rates.call;
-    }
-    const gnomon::ShadowCandidate sides = volume.judged(rates, {0.5, 0.5}), texels = map.judged(rates, {0.5, 0.5});
-    EXPECT_NEAR(sides.still, 2.0, 1e-9);
-    EXPECT_NEAR(sides.flying, 2.0, 1e-9) << "outlines are the light's and the casters'";
-    EXPECT_NEAR(sides.moving, 12.0, 1e-9);
-    EXPECT_NEAR(sides.time, 7.0, 1e-9);
-    EXPECT_GT(texels.flying, 3.0);
-    EXPECT_LT(texels.flying, 4.0) << "one frame in seven, about";
-    EXPECT_NEAR(texels.time, (texels.flying + texels.moving) / 2.0, 1e-9);
+TEST(AutoCandidate, TakesInEachFrameWhatIsDueToWhatMoves) {
+    gnomon::ShadowWork millisecond;
+    millisecond.calls = 1.0;
+    millisecond.calls /= timeOf(millisecond, gnomon::llvmpipeRates);
+    const auto taking = [&](double milliseconds) {
+        gnomon::ShadowWork work;
+        work.calls = milliseconds * millisecond.calls;
+        return work;
+    };
+    gnomon::AutoCandidate candidate;
+    candidate.still = taking(2.0);
+    candidate.light = taking(10.0);
+    candidate.casters = taking(4.0);
+    candidate.view = taking(1.0);
+    const gnomon::ShadowCandidate judged = candidate.judged(gnomon::llvmpipeRates, {0.5, 0.25, 0.125});
+    EXPECT_NEAR(judged.still, 2.0, 1e-9);
+    EXPECT_NEAR(judged.flying, 3.0, 1e-9);
+    EXPECT_NEAR(judged.moving, 12.0, 1e-9);
+    EXPECT_NEAR(judged.time, 8.125, 1e-9);
 }
 
 TEST(AutoFlight, OverAndThroughATownChangesSeldomAndUnseen) { fly({"town", town(), overTheTown, 40.0}); }

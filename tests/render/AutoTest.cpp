@@ -28,12 +28,21 @@ const test::Mesh cube = box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0});
 const test::Mesh beside = box({-1.0, -5.0, 0.0}, {1.0, -3.5, 1.0}); // no shadow of the cube's, none on it
 const test::Mesh below = box({-3.0, -1.5, 0.0}, {-2.0, 0.5, 0.5});  // in the cube's shadow
 
-/// They have many edges on their outlines: a map takes less, of a few of them only while nothing moves.
+/// They have many edges on their outlines: a map takes less while nothing moves. Where the light moves, it takes more, as they have
+/// more triangles still.
 test::Mesh balls(int count) {
     std::vector<test::Mesh> all;
-    for (int i = 0; i < count; ++i) all.push_back(test::sphere({-1.5 + i % 2, -0.8 + 0.8 * (i / 2), 2.0}, 0.4, 36));
+    for (int i = 0; i < count; ++i) all.push_back(test::sphere({-1.5 + i % 2, -0.8 + 0.8 * (i / 2), 2.0}, 0.4, 100));
     return test::joined(all);
 }
+
+/// Without what relighting takes, which is the same for all.
+struct BlendTrial : Trial {
+    BlendTrial(const std::vector<test::Mesh>& casters, const gnomon::AutoShadowOptions& options = {})
+        : Trial(casters, options) {
+        scene.group->setComposite(gnomon::ShadowCasterGroup::BLEND);
+    }
+};
 
 test::View view() { return test::perspective({-7.0, -9.0, 7.0}, {-0.5, -0.5, 0.0}, 160, 120); }
 
@@ -56,7 +65,8 @@ bool startsWith(const std::string& text, const std::string& start) { return text
 } // namespace
 
 TEST(Auto, TakesVolumesForCastersOfFewEdgesAndMapsForDenseOnes) {
-    Trial plain({cube, below}, {0.5}), dense({test::sphere({-1.0, 0.0, 2.0}, 1.2, 200), below});
+    Trial plain({cube, below}, {0.5});
+    BlendTrial dense({balls(8), below});
     const Picture picture = test::render(plain.scene.root, view());
     EXPECT_EQ(plain.chosen(), "volume") << plain.decision().reason;
     EXPECT_EQ(picture.different(drawnBy("volume", {cube, below})), 0);
@@ -111,18 +121,26 @@ TEST(Auto, AsksForNoMoreThanTheErrorNeeds) {
     EXPECT_GT(coarse.decision().chosen.error, fine.decision().chosen.error);
 }
 
-TEST(Auto, TakesTheSmallestMapOfThoseThatTakeTheSameWhileNothingMoves) {
-    Trial trial({balls(8), below}, {4.0});
-    test::render(trial.scene.root, test::perspective({-7.0, -9.0, 7.0}, {-0.5, -0.5, 0.0}, 1280, 960));
+// By what it says of itself; for the rule by hand see CandidateChoiceTest.cpp.
+TEST(Auto, TakesTheMostAccurateOfThoseThatTakeUpToAQuarterMoreThanTheCheapest) {
+    BlendTrial trial({balls(8), below}, {4.0});
+    test::render(trial.scene.root, test::perspective({-7.0, -9.0, 7.0}, {-0.5, -0.5, 0.0}, 640, 480));
     const ShadowDecision decision = trial.decision();
-    EXPECT_TRUE(startsWith(decision.chosen.spec, "map")) << decision.chosen.spec;
-    int dearer = 0;
+    double cheapest = decision.chosen.time;
+    for (const gnomon::ShadowCandidate& each : decision.candidates)
+        if (each.obstacle.empty() && each.error <= 4.0) cheapest = std::min(cheapest, each.time);
+    EXPECT_LT(cheapest, decision.chosen.time) << "the scene has no such candidates";
+    EXPECT_LE(decision.chosen.time, 1.25 * cheapest);
+    int others = 0;
     for (const gnomon::ShadowCandidate& each : decision.candidates) {
-        if (each.still != decision.chosen.still || each.error > 4.0) continue;
-        EXPECT_GE(each.moving, decision.chosen.moving) << each.spec;
-        dearer += each.moving > decision.chosen.moving;
+        if (!each.obstacle.empty() || each.time > 1.25 * cheapest) continue;
+        EXPECT_GE(1.05 * each.error, decision.chosen.error) << each.spec;
+        if (each.error == decision.chosen.error) EXPECT_GE(each.moving, decision.chosen.moving) << each.spec;
+        ++others;
     }
-    EXPECT_GT(dearer, 0) << "the scene has no such maps";
+    EXPECT_GT(others, 3);
+    EXPECT_EQ(decision.reason.rfind("the most accurate of those that keep 4 px and take up to a quarter more", 0), 0u)
+        << decision.reason;
 }
 
 TEST(Auto, DrawsTheSamePicturesInTwoRuns) {
@@ -249,7 +267,7 @@ TEST(Auto, ComparesTheCandidatesOfAStillSceneOnce) {
 
 // The first frame cannot know. Where things stand still a map is drawn once, where they move once a frame.
 TEST(Auto, KnowsInTheThirdFrameWhatMovesFromTheStart) {
-    Trial trial({balls(4), below});
+    BlendTrial trial({balls(8), below});
     Camera camera(trial.scene.root, view());
     std::vector<std::string> chosen;
     for (int i = 0; i < 3; ++i) {
@@ -262,16 +280,16 @@ TEST(Auto, KnowsInTheThirdFrameWhatMovesFromTheStart) {
     for (const gnomon::ShadowCandidate& each : last.candidates) {
         if (!each.obstacle.empty() || each.error > 1.0) continue;
         cheapest = std::min(cheapest, each.moving);
-        if (each.spec == chosen[0]) EXPECT_GT(each.moving, 1.25 * last.chosen.moving) << "right at once by chance";
+        if (each.spec == chosen[0]) EXPECT_GT(each.moving, 1.5 * last.chosen.moving) << "right at once by chance";
     }
     EXPECT_NE(chosen[0], chosen[2]);
     EXPECT_EQ(last.chosen.time, last.chosen.moving);
-    EXPECT_EQ(last.chosen.moving, cheapest);
+    EXPECT_LE(last.chosen.moving, 1.25 * cheapest);
     EXPECT_EQ(last.decisions, 2u);
 }
 
 TEST(Auto, ChangesNothingForASingleFrameOfMotion) {
-    Trial trial({balls(4), below});
+    BlendTrial trial({balls(8), below});
     Camera camera(trial.scene.root, view());
     const auto draw = [&](int frames) {
         for (int i = 0; i < frames; ++i) camera.frame();
@@ -290,7 +308,7 @@ TEST(Auto, ChangesNothingForASingleFrameOfMotion) {
 
 // The first decision may have taken long, and then nothing is compared again for up to 64 frames.
 TEST(Auto, KnowsInTheNinthFrameOfMotionThatARestIsOver) {
-    Trial trial({balls(4), below});
+    BlendTrial trial({balls(8), below});
     Camera camera(trial.scene.root, view());
     for (int i = 0; i < 5; ++i) camera.frame();
     const std::string still = trial.chosen();

@@ -8,8 +8,6 @@
 namespace gnomon {
 namespace {
 
-constexpr double refits = 0.15; // share of the frames of a moving view in which a map is drawn again
-
 /// "NAME", or "NAME:key=value,key=value".
 class SpecText {
 public:
@@ -76,13 +74,13 @@ bool AutoCandidate::isSame(const AutoCandidate& other) const {
                                  map.cascades == other.map.cascades && map.edges == other.map.edges);
 }
 
-double AutoCandidate::time(const CostRates& rates, const AutoMotion& motion) const {
-    const double drawn = timeOf(still, rates), changed = timeOf(change, rates);
-    return drawn + (motion.scene + (kind == Kind::Map ? refits * motion.view : 0.0)) * changed;
+double AutoCandidate::time(const RendererRates& rates, const AutoMotion& motion) const {
+    return timeOf(still, rates) + motion.light * timeOf(light, rates) + motion.casters * timeOf(casters, rates) +
+           motion.view * timeOf(view, rates);
 }
 
-ShadowCandidate AutoCandidate::judged(const CostRates& rates, const AutoMotion& motion) const {
-    return {spec(),  error, time(rates, motion), time(rates, {}), time(rates, {0.0, 1.0}), time(rates, {1.0, 0.0}),
+ShadowCandidate AutoCandidate::judged(const RendererRates& rates, const AutoMotion& motion) const {
+    return {spec(),  error, time(rates, motion), time(rates, {}), time(rates, {0.0, 0.0, 1.0}), time(rates, {1.0}),
             obstacle};
 }
 

@@ -13,10 +13,11 @@
 
 namespace gnomon {
 
-/// Shares of the frames in which things move.
+/// Shares of the frames in which things move. Where several do, the first of these counts.
 struct AutoMotion {
-    double scene = 0.0; ///< the light or a caster.
-    double view = 0.0;  ///< the view alone.
+    double light = 0.0, casters = 0.0, view = 0.0;
+
+    bool isAny() const { return light > 0.0 || casters > 0.0 || view > 0.0; }
 };
 
 /// A way to draw a shadow, with what it is expected to come to.
@@ -25,19 +26,19 @@ struct AutoCandidate {
 
     Kind kind = Kind::Nothing;
     ShadowMapOptions map = {};
-    double error = 0.0;        ///< pixels.
-    ShadowWork still = {};     ///< in every frame.
-    ShadowWork change = {};    ///< besides, in a frame in which the light or a caster moves.
-    std::string why = {};      ///< the facts that it suits, in a few words.
-    std::string obstacle = {}; ///< why it cannot be used.
+    double error = 0.0;                             ///< pixels.
+    ShadowWork still = {};                          ///< in every frame.
+    ShadowWork light = {}, casters = {}, view = {}; ///< besides, in a frame in which these move; see AutoMotion.
+    std::string why = {};                           ///< the facts that it suits, in a few words.
+    std::string obstacle = {};                      ///< why it cannot be used.
 
     /// Specification string without composite and receiver.
     std::string spec() const;
     /// True if it is drawn alike.
     bool isSame(const AutoCandidate& other) const;
     /// Milliseconds a frame, over many frames.
-    double time(const CostRates& rates, const AutoMotion& motion) const;
-    ShadowCandidate judged(const CostRates& rates, const AutoMotion& motion) const;
+    double time(const RendererRates& rates, const AutoMotion& motion) const;
+    ShadowCandidate judged(const RendererRates& rates, const AutoMotion& motion) const;
 };
 
 /// The techniques that draw what was chosen: made when they are needed, and let go when no view has chosen them lately.

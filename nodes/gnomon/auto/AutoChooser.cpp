@@ -35,8 +35,9 @@ double triangles(const Casters& casters) {
 std::string reasonFor(ChoiceReason reason, double error) {
     const std::string budget = textOf(error) + " px";
     if (reason == ChoiceReason::Cheapest) return "the cheapest that keeps " + budget;
-    if (reason == ChoiceReason::Kept)
-        return "chosen before, and keeps " + budget + "; another would save less than a fifth";
+    if (reason == ChoiceReason::MoreAccurate)
+        return "the most accurate of those that keep " + budget + " and take up to a quarter more than the cheapest";
+    if (reason == ChoiceReason::Kept) return "chosen before, and keeps " + budget + "; no other is better by a fifth";
     return "the most accurate, for none keeps " + budget;
 }
 
@@ -46,7 +47,7 @@ std::string causeOf(double error, const ShadowCandidate& chosen) {
 }
 
 /// The usable ones first, by their times.
-std::vector<ShadowCandidate> judgedOf(const std::vector<AutoCandidate>& all, const CostRates& rates,
+std::vector<ShadowCandidate> judgedOf(const std::vector<AutoCandidate>& all, const RendererRates& rates,
                                       const AutoMotion& motion) {
     std::vector<ShadowCandidate> result;
     for (const AutoCandidate& candidate : all) result.push_back(candidate.judged(rates, motion));
@@ -67,18 +68,15 @@ std::string describe(ReceiverKind kind) {
     return kind == ReceiverKind::Late ? "drawn late" : "with a depth range or polygon offset";
 }
 
-bool isMoving(const AutoMotion& motion) { return motion.scene > 0.0 || motion.view > 0.0; }
-
 } // namespace
 
 /// Keeps no caster alive.
 AutoChooser::Seen AutoChooser::seenIn(const ShadowInView& shadow, const Selection& receiver, double error) const {
     const ViewFrame& frame = shadow.view;
-    Fingerprint motion, sight, asked;
-    motion.mix(shadow.casters.fingerprint);
-    for (int i = 0; i < 4; ++i) motion.mix(shadow.light.inGroup[i]);
-    for (int i = 0; i < 3; ++i) motion.mix(shadow.light.direction[i]);
-    motion.mix(shadow.light.cutoff);
+    Fingerprint light, sight, asked;
+    for (int i = 0; i < 4; ++i) light.mix(shadow.light.inGroup[i]);
+    for (int i = 0; i < 3; ++i) light.mix(shadow.light.direction[i]);
+    light.mix(shadow.light.cutoff);
     sight.mix(frame.eyeFromGroup);
     sight.mix(frame.projection);
     sight.mix(frame.seenValue);
@@ -88,7 +86,7 @@ AutoChooser::Seen AutoChooser::seenIn(const ShadowInView& shadow, const Selectio
           double(isFaint(shadow)), shadow.light.inGroup.w(), double(receiver.mask), double(_renderer->value.load())})
         asked.mix(number);
     for (const osg::ref_ptr<osg::Node>& root : receiver.roots()) asked.mix(static_cast<const void*>(root.get()));
-    return {motion.value(), sight.value(), asked.value(), error};
+    return {light.value(), shadow.casters.fingerprint, sight.value(), asked.value(), error};
 }
 
 /// Whether the candidates are to be compared. A choice that is right only as long as things lie as they lie is looked at
@@ -97,32 +95,35 @@ bool AutoChooser::isDue(Choice& choice, const Seen& now, const ShadowInView& sha
     ++choice.frames;
     if (choice.decision.decisions == 0) return true;
     const Seen before = std::exchange(choice.last, now);
-    const bool moves = now.motion != before.motion, flies = !moves && now.view != before.view;
-    const bool rested = !isMoving(choice.moving);
+    const bool turns = now.light != before.light, moves = !turns && now.casters != before.casters,
+               flies = !turns && !moves && now.view != before.view;
+    const bool rested = !choice.moving.isAny();
     ++choice.seen;
-    choice.moving = {followed(choice.moving.scene, moves, choice.seen),
+    choice.moving = {followed(choice.moving.light, turns, choice.seen),
+                     followed(choice.moving.casters, moves, choice.seen),
                      followed(choice.moving.view, flies, choice.seen)};
-    choice.since = rested ? 0 : choice.since + (moves || flies);
+    choice.since = rested ? 0 : choice.since + (turns || moves || flies);
     if (now.asked != choice.decided.asked || now.error != choice.decided.error) return true;
-    if (choice.seen == firstLook && isMoving(choice.moving)) return true; // the first decision took all to stand still
+    if (choice.seen == firstLook && choice.moving.isAny()) return true; // the first decision took all to stand still
     if (now == before) return false;
     if (!whyWrong(choice.candidate, shadow, receiver, _known).empty()) return true;
-    if (moves && std::max(triangles(shadow.casters), 1.0) > muchMore * choice.triangles) return true;
-    return choice.since >= settling && !isMoving(choice.movingThen); // so did the last one
+    if (now.casters != before.casters && std::max(triangles(shadow.casters), 1.0) > muchMore * choice.triangles)
+        return true;
+    return choice.since >= settling && !choice.movingThen.isAny(); // so did the last one
 }
 
 /// True once the candidates have not been compared for long, and anything is not as it was then.
 bool AutoChooser::isOld(const Choice& choice, const Seen& now) const {
     const double patience = std::clamp(choice.triangles / trianglesAFrame, leastPatience, mostPatience);
-    const bool cameToRest = !isMoving(choice.moving) && isMoving(choice.movingThen);
-    const bool isSettled = !isMoving(choice.moving) || choice.since >= settling;
+    const bool cameToRest = !choice.moving.isAny() && choice.movingThen.isAny();
+    const bool isSettled = !choice.moving.isAny() || choice.since >= settling;
     return choice.frames >= patience && isSettled && (cameToRest || !(now == choice.decided));
 }
 
 void AutoChooser::decide(Choice& choice, const Seen& now, const ShadowInView& shadow, const Selection& receiver) {
-    const CostRates& rates = ratesOf(_renderer->value);
+    const RendererRates& rates = ratesOf(_renderer->value);
     const CandidateList list = listCandidates(shadow, receiver, _known);
-    const AutoMotion expected{std::max(choice.moving.scene, rarely), choice.moving.view};
+    const AutoMotion expected{std::max(choice.moving.light, rarely), choice.moving.casters, choice.moving.view};
     ShadowDecision& decision = choice.decision;
     std::vector<ChoiceCandidate> judged;
     std::optional<std::size_t> before;

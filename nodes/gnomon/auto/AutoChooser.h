@@ -46,13 +46,15 @@ public:
 private:
     /// Stands for what a choice was made for.
     struct Seen {
-        std::uint64_t motion = 0; ///< the light and the casters, wherever they are.
-        std::uint64_t view = 0;   ///< the view, and what is in sight.
-        std::uint64_t asked = 0;  ///< what is wanted.
-        double error = 0.0;       ///< pixels.
+        std::uint64_t light = 0;
+        std::uint64_t casters = 0; ///< wherever they are.
+        std::uint64_t view = 0;    ///< the view, and what is in sight.
+        std::uint64_t asked = 0;   ///< what is wanted.
+        double error = 0.0;        ///< pixels.
 
         bool operator==(const Seen& other) const {
-            return motion == other.motion && view == other.view && asked == other.asked && error == other.error;
+            return light == other.light && casters == other.casters && view == other.view && asked == other.asked &&
+                   error == other.error;
         }
     };
     struct Choice {

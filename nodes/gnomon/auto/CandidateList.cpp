@@ -36,14 +36,19 @@ constexpr MapQuality qualities[] = {
     {Map::BICUBIC, Map::HARD, {0.35, 0.40, 4.0, false}},  {Map::BILINEAR, Map::SMOOTH, {0.25, 0.36, 1.0, false}},
     {Map::BICUBIC, Map::SMOOTH, {0.22, 0.15, 4.0, true}}, {Map::FINE, Map::SMOOTH, {0.15, 0.075, 16.0, true}},
 };
-constexpr double callsAMap = 14.0;      // to switch to its framebuffer and back, and to fit it
-constexpr double callsAPiece = 0.02;    // to see that it has not changed
-constexpr double mapCallsAPiece = 0.04; // the same, of a map
-constexpr double callsToRelight = 3.0;  // to take depth back where marks are
-constexpr double darkened = 0.25;       // of the pixels where a shadow can be
-constexpr double relitAnew = 0.5;       // the same, besides, where all that is there is drawn again
-constexpr double callsALeaf = 0.1;      // to draw it again
-constexpr double facedAnObject = 0.03;  // to ask a triangle whether it faces the light; see ShadowWork::objects
+// What is counted of a technique, by what tests/bench/bench_processor counts; see CandidateChoice.cpp.
+constexpr double callsOfAll = 6.0;     // of what every technique needs, and one full-screen step
+constexpr double callsToRelight = 3.0; // to take depth back where marks are
+constexpr double callsAMap = 4.0;      // to switch to its framebuffer and back
+constexpr double darkened = 0.25;      // of the pixels where a shadow can be
+constexpr double relitAnew = 0.5;      // the same, besides, where all that is there is drawn again
+constexpr double readBack = 0.5;       // what a pixel's depth takes that the processor reads, to one that a step copies
+constexpr double lookedUp = 0.25;      // for each further map of a light a pixel takes so much longer
+constexpr double redrawn = 0.15;       // of the frames of a moving view: a map is drawn again
+constexpr double looksOfAHull = 3.0;   // at each caster in a frame, where others look once
+constexpr double trianglesOfAHull = 3.0; // of a dense mesh, whose shadow takes as long as that of so many boxes
+constexpr double drawnOfDense = 40.0;    // triangles for one of a dense mesh, whose shadows overlap
+
 /// Smaller ones leak light between fins that lie a few pixels apart, where no edge of a shadow tells it.
 constexpr int sizes[] = {512, 1024, 2048, 4096};
 
@@ -165,19 +170,23 @@ private:
         return _result;
     }
 
+    /// Of the casters' triangles.
+    double movingShare() const { return double(_layers.moving->triangles) / std::max(_casters, 1.0); }
     bool blends() const { return _shadow.view.group->getComposite() == ShadowCasterGroup::BLEND; }
 
     /// What every technique costs: the compositor's part.
     void measure() {
         _pixels = pixelsOf(_shadow.view, *_one.bounds);
         _casters = double(_layers.triangles());
-        _compose.calls = 2.0 + callsAPiece * double(_shadow.casters.list.size());
+        _pieces = double(_shadow.casters.list.size());
+        _compose.calls = callsOfAll;
+        _compose.casters = _pieces;
         _compose.filled = darkened * _pixels;
         if (blends()) return;
         _compose.calls += callsToRelight;
+        _compose.leaves = double(_shadow.view.seen.size());
         _compose.filled += relitAnew * _pixels;
         _compose.relit = trianglesWithin(_shadow.view.seen, *_one.bounds);
-        _compose.calls += callsALeaf * double(_shadow.view.seen.size());
     }
 
     void addTerrain() {
@@ -187,11 +196,12 @@ private:
         hull.obstacle = facts.obstacle;
         hull.why = "the named terrain shadows no part of itself";
         hull.error = polygonError(facts.off / _one.pixel);
-        const double dense = denseTriangles(_shadow.casters), boxes = (_casters - dense) / 12.0;
+        const double dense = denseTriangles(_shadow.casters);
         hull.still = _compose;
-        hull.still.calls += 4.0;
-        hull.still.triangles = 6.0 * boxes + 1.2 * dense;
-        hull.change.objects = boxes + 0.8 * dense;
+        hull.still.casters *= looksOfAHull;
+        hull.still.triangles = 6.0 * _pieces + drawnOfDense * dense;
+        hull.light.hulls = _pieces + dense / trianglesOfAHull;
+        hull.casters = hull.light;
         _result.all.push_back(hull);
     }
 
@@ -230,12 +240,20 @@ private:
         map.why = "its texels are as large as " + roundedText(forecast.texels / texels) + " px";
         const double passes = quality.edges == Map::SMOOTH && !blends() ? 2.0 : 1.0;
         map.still = _compose;
-        map.still.calls += 3.0 * passes + mapCallsAPiece * double(_shadow.casters.list.size());
-        map.still.pixels = passes * _pixels;
+        map.still.calls += 3.0 * passes;
+        map.still.pixels = passes * _pixels * (1.0 + lookedUp * (forecast.maps - 1));
         map.still.taps = passes * _pixels * quality.edge.compared;
-        map.change.calls = callsAMap * forecast.maps;
-        map.change.texels = double(forecast.maps) * texels * texels;
-        map.change.triangles = double(forecast.maps) * _casters;
+        const auto drawAgain = [&](ShadowWork& work, double share) {
+            work.fits = forecast.fits;
+            work.calls = share * callsAMap * forecast.maps;
+            work.casters = share * _pieces;
+            work.texels = share * forecast.maps * texels * texels;
+            work.triangles = share * forecast.maps * _casters;
+        };
+        drawAgain(map.light, 1.0);
+        drawAgain(map.view, redrawn);
+        drawAgain(map.casters, 1.0);
+        map.casters.triangles *= movingShare();
         return map;
     }
 
@@ -246,10 +264,13 @@ private:
         volume.obstacle = whyCutOut(_shadow.casters);
         volume.still = _compose;
         const VolumeForecast forecast = forecastVolumes(_shadow.view, _layers, _shadow.towards, _known.open);
-        volume.still.calls += 3.0;
         volume.still.triangles += 2.0 * forecast.sides + forecast.caps;
         volume.still.texels += forecast.pixels + _pixels; // counts become marks
-        volume.change.objects += forecast.sides + facedAnObject * _casters;
+        volume.light.volumes = volume.casters.volumes = volume.view.volumes = _pieces;
+        volume.light.faced = _casters;
+        volume.light.sides = forecast.sides + forecast.caps;
+        volume.casters.faced = movingShare() * volume.light.faced;
+        volume.casters.sides = movingShare() * volume.light.sides;
         volume.why = "its volumes have some " + roundedText(forecast.sides) + " sides";
         _result.all.push_back(volume);
     }
@@ -261,7 +282,8 @@ private:
         traced.why = "rays are cast for some " + roundedText(_pixels) + " pixels";
         traced.obstacle = whyNotTraced(_shadow.casters);
         traced.still = _compose;
-        traced.still.pixels = 2.0 * _pixels;
+        traced.still.pixels = readBack * _pixels;
+        // A still picture keeps them. They count all the same: else its first frame of motion would be the dearest of all.
         traced.still.rays = _pixels;
         _result.all.push_back(traced);
     }
@@ -272,7 +294,7 @@ private:
     const CasterLayers& _layers;
     const osg::ref_ptr<const MapCasters> _boxes;
     MapForecast _one;
-    double _pixels = 0.0, _casters = 0.0;
+    double _pixels = 0.0, _casters = 0.0, _pieces = 0.0;
     std::optional<EdgeWidths> _widths; ///< of edges in `_one`.
     double _sampled = sampledEdge;     ///< error of one ray a pixel.
     ShadowWork _compose;

@@ -24,8 +24,8 @@ protected:
 };
 
 /// What work costs there. Where nobody knows, a graphics processor draws.
-inline const CostRates& ratesOf(Renderer renderer) {
-    return renderer == Renderer::Processor ? processorRates : graphicsRates;
+inline const RendererRates& ratesOf(Renderer renderer) {
+    return renderer == Renderer::Processor ? llvmpipeRates : graphicsRates;
 }
 
 } // namespace gnomon

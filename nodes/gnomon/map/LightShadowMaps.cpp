@@ -18,6 +18,7 @@ namespace {
 constexpr double reserve = 1.0 / 16.0; // of a map's sides
 constexpr double mostWaste = 2.0;      // area of a map to the smallest that would do: edges may be a half coarser
 constexpr double fewestSoft = 256.0; // texels of soft edges: with fewer, what 128 of them reach would be most of a map
+constexpr double fitsOfAMap = 50.0;  // see MapForecast::fits
 constexpr double keptClear = 3.0; // texels at a map's sides: what a comparison reaches over, and one against rounding
 
 bool isSameRequest(const MapRequest& one, const MapRequest& other) {
@@ -273,6 +274,8 @@ MapForecast LightShadowMaps::forecast() const {
     result.maps = mapsNeeded();
     result.most = mostTexels();
     for (const Face& face : _faces.each) {
+        const double looks = face.side->frame.isParallel ? 1.0 : 2.0; // a lamp's are divided by distance
+        result.fits += looks * (fitsOfAMap + double(face.side->blockers.size() * _faces.seen().receivers.size()));
         if (face.needed.empty()) continue;
         const MapFit fit = fitOf(face);
         result.each.push_back({fit.mapFromScene, _faces.placesOf(face)});

@@ -8,32 +8,44 @@ namespace gnomon {
 
 /// Work that a shadow adds to a frame, as counted before it is done.
 struct ShadowWork {
-    double calls = 0.0;     ///< draws and full-screen steps.
-    double triangles = 0.0; ///< drawn without colour: casters into a map, flattened ones, polygons on terrain.
+    // The processor's, in OpenSceneGraph, in Gnomon and in OpenGL's driver:
+    double calls = 0.0;   ///< full-screen steps and draws of many triangles, with the state that they need.
+    double casters = 0.0; ///< that are compared with the frame before, or whose outline is found.
+    double leaves = 0.0;  ///< of the scene that are drawn once more.
+    double fits = 0.0;    ///< see MapForecast::fits.
+    double volumes = 0.0; ///< that are placed in a view.
+    double faced = 0.0;   ///< triangles that are asked whether they face the light.
+    double sides = 0.0;   ///< of volumes, with what closes them, that are made and handed to OpenGL.
+    double hulls = 0.0;   ///< shadows that are found on terrain.
+    double rays = 0.0;    ///< that are cast.
+    // The renderer's, besides what it takes for each call:
+    double triangles = 0.0; ///< drawn without colour: casters into a map, volumes, polygons on terrain.
     double texels = 0.0;    ///< of maps that are cleared and filled, and of stencil counts.
     double pixels = 0.0;    ///< whose depth is copied or compared.
     double taps = 0.0;      ///< comparisons of 2 × 2 texels, over all pixels.
     double relit = 0.0;     ///< triangles of the scene that are drawn once more.
     double filled = 0.0;    ///< pixels that those cover, or that are blended.
-    double rays = 0.0;      ///< cast by the processor.
-    double objects = 0.0;   ///< shadows found on terrain, or sides of shadow volumes.
-
-    ShadowWork& operator+=(const ShadowWork& other);
 };
 
-/// What a unit of each kind of work costs, milliseconds. Only the ratios decide.
-struct CostRates {
-    double call, triangle, texel, pixel, tap, relit, filled, ray, object;
+/// What a renderer takes for a unit of each kind of work, milliseconds.
+struct RendererRates {
+    double call, triangle, texel, pixel, tap, relit, filled;
 };
 
-/// Processor time where a processor draws: measured with llvmpipe on one core of an AMD EPYC.
-constexpr CostRates processorRates = {0.05, 8e-5, 1.3e-6, 7e-6, 3.4e-6, 2.1e-4, 6e-6, 2e-4, 2.5e-4};
-/// Where a graphics processor draws: 24 µs a call with its state, as map and volume take on an NVIDIA H200. The rest are estimates:
-/// 10⁹ triangles, 3·10¹⁰ texels and 10¹⁰ blended pixels a second. Rays and outlines are the processor's.
-constexpr CostRates graphicsRates = {0.024, 1e-6, 3e-8, 2e-7, 5e-8, 2e-6, 1e-7, 2e-4, 2.5e-4};
+/// llvmpipe: fitted to processor time of one core, less what the processor takes where Mesa draws nothing, over 94 frames of six
+/// scenes.
+constexpr RendererRates llvmpipeRates = {0.003, 1.3e-4, 9e-7, 1.4e-5, 1.7e-6, 2.3e-4, 1.6e-6};
+/// Graphics processors. A call took 24 µs on an NVIDIA H200, of which 8 are the processor's. The others are estimates: 10⁹
+/// triangles, 3·10¹⁰ texels and 10¹⁰ blended pixels a second.
+constexpr RendererRates graphicsRates = {0.016, 1e-6, 3e-8, 2e-7, 5e-8, 2e-6, 1e-7};
 
-/// Milliseconds.
-double timeOf(const ShadowWork& work, const CostRates& rates);
+/// Milliseconds of the processor, whoever draws.
+double processorTime(const ShadowWork& work);
+/// Milliseconds of the renderer.
+double rendererTime(const ShadowWork& work, const RendererRates& rates);
+/// Both together. Where a processor draws it does one after the other. Beside a graphics processor a frame takes as long as the
+/// slower of the two, but which one that is depends on the rest of the scene: the sum counts both alike.
+double timeOf(const ShadowWork& work, const RendererRates& rates);
 
 /// What a way to draw shadows is expected to come to.
 struct ChoiceCandidate {
@@ -44,7 +56,8 @@ struct ChoiceCandidate {
 
 enum class ChoiceReason {
     Cheapest,     ///< of those that keep the error.
-    Kept,         ///< it was chosen before, keeps the error, and another would hardly be cheaper.
+    MoreAccurate, ///< than the cheapest of those that keep the error, and hardly dearer.
+    Kept,         ///< it was chosen before, and keeps the error.
     ErrorTooSmall ///< none keeps the error: the most accurate.
 };
 
@@ -54,12 +67,15 @@ struct CandidateChoice {
     ChoiceReason reason;
 };
 
-/// Another candidate takes the place of the one before only if it saves more than this share of the time.
-constexpr double leastGain = 0.2;
+/// Candidates that take up to so many times what the cheapest takes are hardly dearer: the most accurate of them is chosen.
+constexpr double hardlyDearer = 1.25;
+/// The candidate that is drawn now is judged as if it took, and erred, so many times what it does: two that are much alike do not
+/// take turns.
+constexpr double favour = 0.8;
 
-/// Chooses; the same candidates and error give the same choice.
+/// Chooses among those that keep the error; the same arguments give the same choice.
 /// @param error   pixels, at most.
-/// @param before  the one that is drawn now: it stays where it keeps the error, until another gains leastGain.
+/// @param before  the one that is drawn now.
 /// @return nullopt if none is usable.
 std::optional<CandidateChoice> chooseCandidate(const std::vector<ChoiceCandidate>& candidates, double error,
                                                std::optional<std::size_t> before = {});
