@@ -53,33 +53,6 @@ void UnavailableWarning::objectRead(osgDB::InputStream&, osg::Object& object) {
     if (!why.empty()) OSG_WARN << "gnomon: " << technique.describe() << " is in the file. " << why << std::endl;
 }
 
-namespace {
-
-class RetiredSwitch : public osgDB::BaseSerializer {
-public:
-    explicit RetiredSwitch(const char* name) : BaseSerializer(READ_WRITE_PROPERTY), _name(name) {}
-    const std::string& getName() const override { return _name; }
-
-    bool read(osgDB::InputStream& in, osg::Object&) override {
-        bool on = true;
-        if (in.isBinary() || in.matchString(_name)) in >> on;
-        return true;
-    }
-    bool write(osgDB::OutputStream& out, const osg::Object&) override {
-        if (out.isBinary()) out << true;
-        return true;
-    }
-
-private:
-    const std::string _name;
-};
-
-} // namespace
-
-void addRetiredSwitch(osgDB::ObjectWrapper& wrapper, const char* name) {
-    wrapper.addSerializer(new RetiredSwitch(name), osgDB::BaseSerializer::RW_UNDEFINED);
-}
-
 bool writeOptions(osgDB::OutputStream& out, const CompositorOptions& options) {
     out << options.reservedStencilBits << options.skipsUntouched << std::endl;
     return true;
@@ -89,19 +62,6 @@ CompositorOptions readOptions(osgDB::InputStream& in) {
     CompositorOptions options;
     in >> options.reservedStencilBits >> options.skipsUntouched;
     return options;
-}
-
-bool GoneNumber::read(osgDB::InputStream& in, osg::Object& object) {
-    if (!in.isBinary() && !in.matchString(_name)) return true;
-    if (readExact<double>(in) != 0.0)
-        OSG_NOTICE << "gnomon: " << _name << " of '" << object.getName() << "' has no effect any more: " << _now << "."
-                   << std::endl;
-    return true;
-}
-
-bool GoneNumber::write(osgDB::OutputStream& out, const osg::Object&) {
-    if (out.isBinary()) out << 0.0;
-    return true;
 }
 
 } // namespace gnomon::fields

@@ -3,6 +3,7 @@
 #include <gnomon/CompositorOptions.h>
 #include <gnomon/Selection.h>
 
+#include <osg/Notify>
 #include <osgDB/ClassInterface>
 #include <osgDB/InputStream>
 #include <osgDB/ObjectWrapper>
@@ -100,9 +101,6 @@ public:
     void objectRead(osgDB::InputStream& in, osg::Object& object) override;
 };
 
-/// A switch that no class has any more: files that have it are read, and it is forgotten. Binary files keep its place.
-void addRetiredSwitch(osgDB::ObjectWrapper& wrapper, const char* name);
-
 /// Keeps a class's getCompositorOptions(), where they are not the defaults.
 template <typename Class>
 void addCompositorOptions(osgDB::ObjectWrapper& wrapper) {
@@ -174,21 +172,43 @@ private:
     }
 };
 
-/// A number that a class had in an earlier version. A reader passes over it, and says so if it was set. Binary files, where
-/// properties have no names, keep its place with a 0.
-class GoneNumber : public osgDB::BaseSerializer {
+/// A property that a class had in an earlier version. A reader passes over it, and says so if it was not the usual value. Binary
+/// files, where properties have no names, keep its place with that.
+template <typename Value>
+class GoneProperty : public osgDB::BaseSerializer {
 public:
-    /// @param now  what takes its place, for a sentence.
-    GoneNumber(std::string name, std::string now)
-        : BaseSerializer(READ_WRITE_PROPERTY), _name(std::move(name)), _now(std::move(now)) {}
+    /// @param now  what holds instead, for a sentence.
+    GoneProperty(std::string name, Value usual, std::string now)
+        : BaseSerializer(READ_WRITE_PROPERTY), _name(std::move(name)), _usual(usual), _now(std::move(now)) {}
     const std::string& getName() const override { return _name; }
 
-    bool read(osgDB::InputStream& in, osg::Object& object) override;
-    bool write(osgDB::OutputStream& out, const osg::Object& object) override;
+    bool read(osgDB::InputStream& in, osg::Object& object) override {
+        if (!in.isBinary() && !in.matchString(_name)) return true;
+        Value value = _usual;
+        if constexpr (std::is_same_v<Value, double>)
+            value = readExact<double>(in);
+        else
+            in >> value;
+        if (value != _usual)
+            OSG_NOTICE << "gnomon: " << _name << " of '" << object.getName() << "' has no effect any more: " << _now
+                       << "." << std::endl;
+        return true;
+    }
+    bool write(osgDB::OutputStream& out, const osg::Object&) override {
+        if (out.isBinary()) out << _usual;
+        return true;
+    }
 
 private:
-    const std::string _name, _now;
+    const std::string _name;
+    const Value _usual;
+    const std::string _now;
 };
+
+template <typename Value>
+void addGone(osgDB::ObjectWrapper& wrapper, const char* name, Value usual, const char* now) {
+    wrapper.addSerializer(new GoneProperty<Value>(name, usual, now), osgDB::BaseSerializer::RW_USER);
+}
 
 /// What a new object has.
 template <typename Class, typename Given>

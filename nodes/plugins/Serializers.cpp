@@ -37,8 +37,9 @@ namespace {
 
 /// OSG's word for the library that a version belongs to.
 constexpr const char* fileDomain = "gnomon";
-constexpr int fileVersion = 5;                ///< The version that is written.
-constexpr int firstVersion = 3;               ///< The oldest that is read.
+constexpr int fileVersion = 5;  ///< The version that is written.
+constexpr int firstVersion = 3; ///< The oldest that is read.
+constexpr const char* faultsAreGone = "the faults of earlier programs are not drawn";
 constexpr char mark[] = {'g', 'n', 'm', 'n'}; // files without it have switches, enumerators or numbers here
 
 /// The stream below, which OSG shows to none but classes that inherit.
@@ -228,9 +229,9 @@ GNOMON_WRAPPER(ShadowTechnique, nullptr, "osg::Object osg::Node osg::Geode", "")
 GNOMON_WRAPPER(PlanarShadowNode, new gnomon::PlanarShadowNode, "osg::Object osg::Node osg::Geode",
                "gnomon::ShadowTechnique") {
     addList<MyClass, &MyClass::getPlanes, &MyClass::setPlanes>(*wrapper, "Planes");
-    fields::addRetiredSwitch(*wrapper, "StencilCure");
-    fields::addRetiredSwitch(*wrapper, "OffsetCure");
-    fields::addRetiredSwitch(*wrapper, "ClipCure");
+    fields::addGone(*wrapper, "StencilCure", true, faultsAreGone);
+    fields::addGone(*wrapper, "OffsetCure", true, faultsAreGone);
+    fields::addGone(*wrapper, "ClipCure", true, faultsAreGone);
 }
 
 /// Windows made later have alpha bits.
@@ -285,8 +286,7 @@ GNOMON_WRAPPER(TracedShadowTechnique, new gnomon::TracedShadowTechnique, "osg::O
 GNOMON_WRAPPER(AutoShadowTechnique, new gnomon::AutoShadowTechnique, "osg::Object osg::Node osg::Geode",
                "gnomon::ShadowTechnique") {
     fields::addExact(*wrapper, "Error", &MyClass::getError, &MyClass::setError);
-    wrapper->addSerializer(new fields::GoneNumber("Time", "auto keeps the error alone"),
-                           osgDB::BaseSerializer::RW_USER);
+    fields::addGone(*wrapper, "Time", 0.0, "auto keeps the error alone");
 }
 
 GNOMON_WRAPPER(HaloNode, new gnomon::HaloNode, "osg::Object osg::Node osg::Group", "") {
@@ -296,7 +296,7 @@ GNOMON_WRAPPER(HaloNode, new gnomon::HaloNode, "osg::Object osg::Node osg::Group
     fields::addExact(*wrapper, "Scale", &MyClass::getScale, &MyClass::setScale);
     ADD_INT_SERIALIZER(Width, fresh->getWidth());
     fields::addExact(*wrapper, "Color", &MyClass::getColor, &MyClass::setColor);
-    fields::addRetiredSwitch(*wrapper, "StencilCure");
+    fields::addGone(*wrapper, "StencilCure", true, faultsAreGone);
     fields::addCompositorOptions<MyClass>(*wrapper);
 }
 
@@ -308,6 +308,6 @@ GNOMON_WRAPPER(PlanarReflectionNode, new gnomon::PlanarReflectionNode, "osg::Obj
     fields::addExact(*wrapper, "Plane", &MyClass::getPlane, &MyClass::setPlane);
     fields::addSelection<MyClass, &MyClass::getSurface, &MyClass::setSurface>(*wrapper, "Surface");
     fields::addExact(*wrapper, "Reflectance", &MyClass::getReflectance, &MyClass::setReflectance);
-    fields::addRetiredSwitch(*wrapper, "StencilCure");
+    fields::addGone(*wrapper, "StencilCure", true, faultsAreGone);
     fields::addCompositorOptions<MyClass>(*wrapper);
 }
