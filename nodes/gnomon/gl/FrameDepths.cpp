@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 namespace gnomon {
 namespace {
@@ -110,11 +111,11 @@ bool holds(const PixelRect& all, const PixelRect& part) {
            part.y + part.height <= all.y + all.height;
 }
 
-OpenThreads::Mutex sharedMutex;
+std::mutex sharedMutex; // as the next constant, for techniques are made before main(), too
 std::weak_ptr<FrameDepths> sharedDepths;
 
 std::shared_ptr<FrameDepths> sharedIfAny() {
-    Lock lock(sharedMutex);
+    const std::lock_guard<std::mutex> lock(sharedMutex);
     return sharedDepths.lock();
 }
 
@@ -190,7 +191,7 @@ void ResolvedDepth::letGo(unsigned context, const Buffers& buffers) {
 }
 
 std::shared_ptr<FrameDepths> FrameDepths::shared() {
-    Lock lock(sharedMutex);
+    const std::lock_guard<std::mutex> lock(sharedMutex);
     std::shared_ptr<FrameDepths> depths = sharedDepths.lock();
     if (!depths) sharedDepths = depths = std::make_shared<FrameDepths>();
     return depths;
