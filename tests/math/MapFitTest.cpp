@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/geometry/ScreenBounds.h>
 #include <gnomon/mapfit/MapFit.h>
 
 #include <glm/geometric.hpp>
@@ -151,6 +152,62 @@ TEST(MapOutline, MergedWithAnotherIsTheHullOfBothWithAllDepths) {
     none.merge(outline);
     EXPECT_EQ(none.farthest, 0.0);
     EXPECT_EQ(none.corners.size(), 4u);
+}
+
+/// Boxes turned, stretched and skewed: large ones first, so that most of the others are within what is known.
+std::vector<PlacedBox> skewedBoxes() {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> any(-1.0, 1.0);
+    std::vector<PlacedBox> boxes;
+    for (int i = 0; i < 200; ++i) {
+        glm::dmat4 place(1.0);
+        for (int column = 0; column < 3; ++column)
+            for (int row = 0; row < 3; ++row) place[column][row] = (i < 3 ? 3.0 : 0.7) * any(random);
+        for (int row = 0; row < 3; ++row) place[3][row] = 5.0 * any(random);
+        boxes.emplace_back(glm::dvec3(-1.0 - any(random), -1.0, -0.5), glm::dvec3(1.0, 2.0, 0.5 + any(random) / 2.0),
+                           place);
+    }
+    return boxes;
+}
+
+TEST(PlacedBox, IsWithinItsBallAndTouchesIt) {
+    for (const PlacedBox& box : skewedBoxes()) {
+        double farthest = 0.0;
+        for (const glm::dvec4& corner : boxCorners(box.low, box.high, box.sceneFromBox))
+            farthest = std::max(farthest, glm::distance(glm::dvec3(corner), box.middle));
+        EXPECT_LE(farthest, box.radius * (1.0 + 1e-12));
+        EXPECT_GE(farthest, box.radius / std::sqrt(3.0)); // no corner is nearer than the longest half of a side is long
+    }
+    const PlacedBox straight({1.0, 1.0, 1.0}, {3.0, 5.0, 5.0});
+    EXPECT_DOUBLE_EQ(straight.radius, 3.0);
+    EXPECT_EQ(straight.middle, glm::dvec3(2.0, 3.0, 3.0));
+}
+
+TEST(MapOutline, OfManyBoxesIsTheHullOfAllTheirCornersWhicheverComesFirst) {
+    const LightFrame frame = sunFrame(glm::normalize(glm::dvec3(0.3, -0.5, 0.8)));
+    std::vector<PlacedBox> boxes = skewedBoxes();
+    std::vector<glm::dvec2> all;
+    double nearest = 1e9, farthest = -1e9;
+    for (const PlacedBox& box : boxes)
+        for (const glm::dvec4& corner : boxCorners(box.low, box.high, box.sceneFromBox)) {
+            const glm::dvec4 at = frame.lightFromScene * corner;
+            all.emplace_back(at);
+            nearest = std::min(nearest, at.z);
+            farthest = std::max(farthest, at.z);
+        }
+    for (const bool backwards : {false, true}) {
+        if (backwards) std::reverse(boxes.begin(), boxes.end());
+        MapOutline outline(frame);
+        for (const PlacedBox& box : boxes) outline.addBox(box);
+        EXPECT_NEAR(outline.nearest, nearest, 1e-9);
+        EXPECT_NEAR(outline.farthest, farthest, 1e-9);
+        const std::vector<glm::dvec2>& corners = outline.corners;
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const glm::dvec2 side = corners[(i + 1) % corners.size()] - corners[i];
+            for (const glm::dvec2& at : all)
+                EXPECT_GE(side.x * (at - corners[i]).y - side.y * (at - corners[i]).x, -1e-9);
+        }
+    }
 }
 
 TEST(MapOutline, IsBeforeWhatItHidesFromTheLightAndNothingElse) {

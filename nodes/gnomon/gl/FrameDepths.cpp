@@ -111,7 +111,7 @@ bool holds(const PixelRect& all, const PixelRect& part) {
            part.y + part.height <= all.y + all.height;
 }
 
-std::mutex sharedMutex; // as the next constant, for techniques are made before main(), too
+std::mutex sharedMutex; // constant, as the next is: techniques may be made before main()
 std::weak_ptr<FrameDepths> sharedDepths;
 
 std::shared_ptr<FrameDepths> sharedIfAny() {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/gl/GlState.h>
+#include <gnomon/gl/SavedFramebuffers.h>
 
 #include <osg/GLExtensions>
 #include <osg/State>
@@ -19,6 +20,8 @@ CleanState::~CleanState() { _state.popStateSet(); }
 
 FirstColorBuffer::FirstColorBuffer(const osg::State& state) : _state(state) {
     constexpr GLenum maxDrawBuffers = 0x8824, drawBuffer = 0x8825; // GL_MAX_DRAW_BUFFERS, GL_DRAW_BUFFER0
+    const bool mayBeObject = _state.get<osg::GLExtensions>()->isFrameBufferObjectSupported;
+    if (!mayBeObject || glInteger(GL_FRAMEBUFFER_BINDING_EXT) == 0) return; // a window has one for each eye
     GLint most = 1;
     glGetIntegerv(maxDrawBuffers, &most);
     for (GLint i = most; i-- > 0;) {

@@ -40,13 +40,12 @@ bool isSame(const std::optional<SpotCone>& a, const std::optional<SpotCone>& b) 
 /// What a drawable of unknown bounds is taken for: it may be anywhere in the view.
 PlacedBox wholeView(const ViewFrame& view, const glm::dmat4& sceneFromEye) {
     const glm::dmat4 eyeFromClip = glm::inverse(toGlm(view.projection));
-    PlacedBox box{glm::dvec3(std::numeric_limits<double>::infinity()), {}, sceneFromEye};
-    box.high = -box.low;
+    glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
     for (const glm::dvec4& corner : boxCorners(glm::dvec3(-1.0), glm::dvec3(1.0), eyeFromClip)) {
-        box.low = glm::min(box.low, glm::dvec3(corner) / corner.w);
-        box.high = glm::max(box.high, glm::dvec3(corner) / corner.w);
+        low = glm::min(low, glm::dvec3(corner) / corner.w);
+        high = glm::max(high, glm::dvec3(corner) / corner.w);
     }
-    return box;
+    return {low, high, sceneFromEye};
 }
 
 } // namespace
@@ -81,10 +80,11 @@ bool isSameLight(const MapRequest& one, const MapRequest& other, double widest) 
 std::vector<PlacedBox> receiversOf(const ViewFrame& view, const glm::dmat4& eyeFromScene) {
     const glm::dmat4 sceneFromEye = glm::inverse(eyeFromScene);
     std::vector<PlacedBox> boxes;
-    std::vector<std::pair<double, std::size_t>> sized; // by the diagonal, scene
+    std::vector<std::pair<double, std::size_t>> sized; // by the radius, scene
+    boxes.reserve(view.seen.size() + 1);
+    sized.reserve(view.seen.size() + 1);
     const auto add = [&](const PlacedBox& box) {
-        sized.emplace_back(glm::length(glm::dvec3(box.sceneFromBox * glm::dvec4(box.high - box.low, 0.0))),
-                           boxes.size());
+        sized.emplace_back(box.radius, boxes.size());
         boxes.push_back(box);
     };
     bool anywhere = view.movesReceivers;
@@ -101,6 +101,7 @@ std::vector<PlacedBox> receiversOf(const ViewFrame& view, const glm::dmat4& eyeF
     if (anywhere) add(wholeView(view, sceneFromEye));
     std::sort(sized.begin(), sized.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
     std::vector<PlacedBox> result;
+    result.reserve(boxes.size());
     for (const auto& [size, box] : sized) result.push_back(boxes[box]);
     return result;
 }

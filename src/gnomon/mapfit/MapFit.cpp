@@ -148,6 +148,20 @@ double ratioOf(const SeenRange& seen) {
 
 } // namespace
 
+PlacedBox::PlacedBox(const glm::dvec3& lowest, const glm::dvec3& highest, const glm::dmat4& toScene)
+    : low(lowest),
+      high(highest),
+      sceneFromBox(toScene),
+      middle(toScene * glm::dvec4((lowest + highest) / 2.0, 1.0)),
+      radius(std::numeric_limits<double>::infinity()) {
+    if (glm::row(toScene, 3) != glm::dvec4(0.0, 0.0, 0.0, 1.0)) return;
+    const glm::dvec3 half = (high - low) / 2.0;
+    const glm::dvec3 x = half.x * glm::dvec3(toScene[0]), y = half.y * glm::dvec3(toScene[1]),
+                     z = half.z * glm::dvec3(toScene[2]);
+    const double skew = std::abs(glm::dot(x, y)) + std::abs(glm::dot(y, z)) + std::abs(glm::dot(z, x));
+    radius = std::sqrt(glm::dot(x, x) + glm::dot(y, y) + glm::dot(z, z) + 2.0 * skew);
+}
+
 HalfSpaces both(HalfSpaces some, const HalfSpaces& others) {
     some.insert(some.end(), others.begin(), others.end());
     return some;
@@ -221,8 +235,22 @@ bool MapOutline::covers(const glm::dvec4& p) const {
     return p.w > 0.0 && depth >= nearest && depth <= farthest && surrounds(glm::dvec2(p) / p.w);
 }
 
+/// True if all of the box's ball is within: faster, and true of most boxes of a large scene.
+bool MapOutline::coversBall(const PlacedBox& box) const {
+    if (!_frame.isParallel || corners.size() < 3) return false;
+    const glm::dvec3 middle(_frame.lightFromScene * glm::dvec4(box.middle, 1.0)); // which keeps lengths
+    if (!(middle.z - box.radius >= nearest && middle.z + box.radius <= farthest)) return false;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const glm::dvec2 side = corners[i + 1 < corners.size() ? i + 1 : 0] - corners[i];
+        const double inside = cross(side, glm::dvec2(middle) - corners[i]);
+        if (!(inside >= 0.0 && inside * inside >= box.radius * box.radius * glm::dot(side, side))) return false;
+    }
+    return true;
+}
+
 bool MapOutline::coversAll(const PlacedBox& box) const {
     if (empty()) return false;
+    if (coversBall(box)) return true;
     const BoxFrom from(_frame.lightFromScene, BoxFrom(box));
     if (!_frame.isParallel || !from.isPlain())
         return allCorners(box, [this](const glm::dvec4& corner) { return covers(_frame.lightFromScene * corner); });
@@ -388,6 +416,9 @@ TexelDensity::TexelDensity(const LightFrame& frame, const glm::dmat4& clipFromSc
 void TexelDensity::addBox(const PlacedBox& box, const HalfSpaces& halfSpaces) {
     const glm::dvec3 normal = flatNormal(box);
     const double least = side * (normal == glm::dvec3(0.0) ? stretchOfBodies : mostStretch);
+    if (_frame.isParallel &&
+        glm::dot(_pixel, glm::dvec4(box.middle, 1.0)) - box.radius * glm::length(glm::dvec3(_pixel)) >= least)
+        return;
     const BoxFrom from(box);
     if (_frame.isParallel && from.isPlain()) {
         if (std::max(glm::dot(_pixel, from.middle) - from.reach(_pixel), 0.0) >= least) return;
@@ -427,6 +458,8 @@ int texelsFor(double wanted, int most, int before) {
 SeenRange::SeenRange(const glm::dmat4& clipFromScene) : _w(glm::row(clipFromScene, 3)) {}
 
 void SeenRange::addBox(const PlacedBox& box, const HalfSpaces& halfSpaces) {
+    const double at = glm::dot(_w, glm::dvec4(box.middle, 1.0)), within = box.radius * glm::length(glm::dvec3(_w));
+    if (nearest <= at - within && at + within <= farthest) return;
     const BoxFrom from(box);
     const double w = glm::dot(_w, from.middle), reach = from.reach(_w);
     if (nearest <= w - reach && w + reach <= farthest) return;

@@ -16,8 +16,12 @@ namespace gnomon {
 
 /// A box at a place in the scene.
 struct PlacedBox {
+    PlacedBox(const glm::dvec3& lowest, const glm::dvec3& highest, const glm::dmat4& toScene = glm::dmat4(1.0));
+
     glm::dvec3 low, high;
-    glm::dmat4 sceneFromBox{1.0};
+    glm::dmat4 sceneFromBox;
+    glm::dvec3 middle; ///< in the scene.
+    double radius;     ///< of a ball about it that holds the box; infinite if sceneFromBox has a perspective.
 };
 
 /// Half-spaces of the scene, each a row: what is within has 0 or more in all of them. See cutBox().
@@ -88,6 +92,7 @@ private:
     bool surrounds(const glm::dvec2& at) const;
     bool covers(const glm::dvec4& inLight) const;
     bool coversAll(const PlacedBox& box) const;
+    bool coversBall(const PlacedBox& box) const;
 
     LightFrame _frame;
 };
