@@ -187,13 +187,14 @@ public:
         ShadowVolumes::Part& part = _volumes.parts[index];
         part.first = static_cast<unsigned>(_volumes.corners.size());
         if (part.edges == 0) return;
+        part.count = 6 * part.edges;
+        _volumes.corners.resize(std::size_t(part.first) + part.count);
+        unsigned* corner = _volumes.corners.data() + part.first;
         const Outline *first = _volumes.outline.data() + part.firstEdge, *end = first + part.edges;
         for (const Outline* edge = first; edge != end; ++edge) {
             const unsigned a = placeOf(index, edge->from), b = placeOf(index, edge->to);
-            triangle(a, a + 1, b + 1);
-            triangle(a, b + 1, b);
+            for (const unsigned each : {a, a + 1, b + 1, a, b + 1, b}) *corner++ = each;
         }
-        part.count = static_cast<unsigned>(_volumes.corners.size()) - part.first;
     }
 
 private:
@@ -211,7 +212,6 @@ private:
         _volumes.vertices.emplace_back(at, static_cast<float>(length < 0.0 ? length : std::max(length, start)));
         return place.vertex;
     }
-    void triangle(unsigned a, unsigned b, unsigned c) { _volumes.corners.insert(_volumes.corners.end(), {a, b, c}); }
 
     const SilhouetteMesh& _mesh;
     ShadowVolumes& _volumes;
