@@ -32,12 +32,14 @@ class AutoChooser;
 /// - The choice follows from facts of the scene and of its last frames: two runs of a program choose alike.
 /// Changes
 /// - A scene that stands still is judged once, and once more if the light or a caster comes to rest.
-/// - In a scene that moves, candidates are judged again every 16 to 64 frames, and whenever the one that is
-///   drawn would become wrong.
+/// - In a scene that moves, candidates are judged again once the view, the light or the casters' bounds have changed by an
+///   eighth, after 16 to 64 frames at the earliest, and after 128 to 512 in any case. At once where the one that is drawn would
+///   become wrong.
 /// - The candidate that is drawn is judged as if it took and erred a fifth less. So two that are alike do not take turns.
 /// Cost
 /// - In a frame without change: a look at the view, the light and the drawables in sight.
-/// - A decision: a few visits of casters and receivers. The candidate that is drawn costs what it costs alone.
+/// - A decision: a few visits of casters and receivers. In motion three frames share it; each part takes as long as a frame of the
+///   scene, or two. The candidate that is drawn costs what it costs alone.
 /// Needs
 /// - The needs of the chosen technique.
 /// Limits

@@ -4,6 +4,7 @@
 #include "AutoTrial.h"
 
 #include <gnomon/auto/AutoCandidate.h>
+#include <gnomon/auto/Situation.h>
 
 #include <gtest/gtest.h>
 #include <osg/PolygonOffset>
@@ -150,6 +151,48 @@ TEST(AutoDecisions, AreToldOfAllKindsOfReceiversAndTheUsualOnesFirst) {
     trial.scene.content->removeChildren(2, 2); // the box and the carpet
     camera.frame();
     EXPECT_EQ(told(), std::vector<std::string>{"light 0: volume"}) << "the others are of earlier frames";
+}
+
+// The casters' box is 16 by 16 by 2, and its diagonal 22.7. The eye is 7.1 away from it.
+TEST(AutoDecisions, AreTakenInMotionOnceTheSituationHasChangedByAnEighth) {
+    AutoTrial trial({cube});
+    const osg::Vec3d eye(-7.0, -9.0, 9.0), center(-0.5, -0.5, 0.0);
+    const double reach = std::sqrt(1.0 + 49.0) + 0.1 * std::sqrt(16.0 * 16.0 * 2.0 + 2.0 * 2.0), step = 0.02;
+    const int enough = int(std::ceil(0.125 * reach / step)), parts = 3;
+    Camera camera(trial.scene.root, perspective(eye, center, 160, 120));
+    std::vector<int> taken;
+    for (int i = 0; i < 160; ++i) {
+        const osg::Vec3d way(step * i, 0.0, 0.0); // along the box
+        camera.setView(perspective(eye + way, center + way, 160, 120));
+        camera.viewer().frame();
+        while (int(taken.size()) < int(trial.decision().decisions)) taken.push_back(i);
+    }
+    const int third = 2 + enough + parts - 1, fourth = third + enough + parts - 1;
+    EXPECT_EQ(taken, (std::vector<int>{0, 2, third, fourth}));
+}
+
+TEST(Situation, ChangesByTheLargestShareOfAny) {
+    gnomon::Situation then;
+    then.eye = {0.0, 0.0, 11.0};
+    then.ahead = {0.0, 0.0, -1.0};
+    then.light = {0.0, 0.0, 1.0, 0.0};
+    then.casters = {{-3.0, -4.0, 0.0}, {3.0, 4.0, 0.0}}; // its diagonal is 10
+    then.lens = 2.0;
+    then.seen = 10.0;
+    EXPECT_EQ(then.changeTo(then), 0.0);
+    const auto change = [&](const auto& act) {
+        gnomon::Situation now = then;
+        act(now);
+        return then.changeTo(now);
+    };
+    EXPECT_NEAR(change([](auto& now) { now.eye.x() = 3.0; }), 3.0 / (11.0 + 1.0), 1e-12);
+    EXPECT_NEAR(change([](auto& now) { now.lens = 2.5; }), 0.25, 1e-12);
+    EXPECT_NEAR(change([](auto& now) { now.seen = 12.0; }), 0.2, 1e-12);
+    EXPECT_NEAR(change([](auto& now) { now.casters._max.z() = 2.0; }), 0.2, 1e-12);
+    EXPECT_NEAR(change([](auto& now) { now.ahead = {std::sin(0.01), 0.0, -std::cos(0.01)}; }), 0.01, 1e-6);
+    EXPECT_NEAR(change([](auto& now) { now.light = {0.0, std::sin(0.01), std::cos(0.01), 0.0}; }), 0.01, 1e-6);
+    then.light = {0.0, 0.0, 4.0, 1.0}; // a lamp
+    EXPECT_NEAR(change([](auto& now) { now.light.y() = 1.0; }), 1.0 / (4.0 + 1.0), 1e-12);
 }
 
 TEST(AutoCandidate, TakesInEachFrameWhatIsDueToWhatMoves) {

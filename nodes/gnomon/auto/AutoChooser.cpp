@@ -21,7 +21,9 @@ constexpr unsigned firstLook = 2;   // frames after the first: what moves from t
 constexpr unsigned settling = 8;    // frames of motion after a rest: a single one should change nothing
 // Frames between two decisions that nothing forces: the more triangles are looked at, the more.
 constexpr double leastPatience = 16.0, mostPatience = 64.0, trianglesAFrame = 4096.0;
-constexpr double muchMore = 1.5; // times as many triangles are another scene
+constexpr double another = 0.125; // change of the situation that asks for a decision; see Situation::changeTo()
+constexpr double longest = 8.0;   // times as long, and what changes less asks, too: a body that moves among others does
+constexpr double muchMore = 1.5;  // times as many triangles are another scene
 /// Share of the frames in which things move at least, in the long run: of maps that take the same where all stands still, the
 /// small one is taken.
 constexpr double rarely = 0.02;
@@ -112,17 +114,18 @@ bool AutoChooser::isDue(Choice& choice, const Seen& now, const ShadowInView& sha
     return choice.since >= settling && !choice.movingThen.isAny(); // so did the last one
 }
 
-/// True once the candidates have not been compared for long, and anything is not as it was then.
-bool AutoChooser::isOld(const Choice& choice, const Seen& now) const {
+/// True once the candidates have not been compared for some frames, and things are not as they were then. While they move on, a small
+/// change asks for nothing.
+bool AutoChooser::isOld(const Choice& choice, const Seen& now, const ShadowInView& shadow) const {
     const double patience = std::clamp(choice.triangles / trianglesAFrame, leastPatience, mostPatience);
-    const bool cameToRest = !choice.moving.isAny() && choice.movingThen.isAny();
-    const bool isSettled = !choice.moving.isAny() || choice.since >= settling;
-    return choice.frames >= patience && isSettled && (cameToRest || !(now == choice.decided));
+    const bool isMoving = choice.moving.isAny(), cameToRest = !isMoving && choice.movingThen.isAny();
+    if (choice.frames < patience || (isMoving && choice.since < settling)) return false;
+    if (!isMoving) return cameToRest || !(now == choice.decided);
+    return choice.frames >= longest * patience || choice.situation.changeTo(Situation(shadow)) >= another;
 }
 
-void AutoChooser::decide(Choice& choice, const Seen& now, const ShadowInView& shadow, const Selection& receiver) {
+void AutoChooser::decide(Choice& choice, const Seen& now, const ShadowInView& shadow, const CandidateList& list) {
     const RendererRates& rates = ratesOf(_renderer->value);
-    const CandidateList list = listCandidates(shadow, receiver, _known);
     const AutoMotion expected{std::max(choice.moving.light, rarely), choice.moving.casters, choice.moving.view};
     ShadowDecision& decision = choice.decision;
     std::vector<ChoiceCandidate> judged;
@@ -146,6 +149,7 @@ void AutoChooser::decide(Choice& choice, const Seen& now, const ShadowInView& sh
     choice.cause = decision.keepsBudget ? "" : causeOf(now.error, decision.chosen);
     choice.decided = choice.last = now;
     choice.movingThen = choice.moving;
+    choice.situation = Situation(shadow);
     choice.triangles = triangles(shadow.casters);
     choice.frames = 0;
 }
@@ -158,7 +162,14 @@ AutoChooser::Drawn AutoChooser::choose(const ShadowInView& shadow, const Selecti
     _lastStage = shadow.view.key.stage;
     _idleCulls = 0;
     const Seen now = seenIn(shadow, receiver, options.error > 0.0 ? options.error : AutoShadowOptions::usualError);
-    if (isDue(choice, now, shadow, receiver) || isOld(choice, now)) decide(choice, now, shadow, receiver);
+    const bool isNeeded = isDue(choice, now, shadow, receiver);
+    if (isNeeded || (!choice.search && isOld(choice, now, shadow))) choice.search.emplace();
+    while (choice.search) {
+        const std::optional<CandidateList> list = choice.search->look(shadow, receiver, _known);
+        if (list) decide(choice, now, shadow, *list);
+        if (list) choice.search.reset();
+        if (!isNeeded) break; // a part a frame
+    }
     return {_inner.of(choice.candidate, receiver, _choices.round()), choice.cause};
 }
 
@@ -173,6 +184,7 @@ void AutoChooser::beginCull(bool isCurrent) {
 
 void AutoChooser::forgetFacts() {
     Lock lock(_mutex);
+    for (const auto& entry : _choices) entry->value.search.reset();
     _known = {};
 }
 

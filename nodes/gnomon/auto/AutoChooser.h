@@ -3,6 +3,7 @@
 #include <gnomon/auto/AutoCandidate.h>
 #include <gnomon/auto/CandidateList.h>
 #include <gnomon/auto/Renderer.h>
+#include <gnomon/auto/Situation.h>
 #include <gnomon/group/PerView.h>
 
 #include <OpenThreads/Mutex>
@@ -62,18 +63,20 @@ private:
         Seen decided, last;
         AutoCandidate candidate;
         ShadowDecision decision;
-        std::string cause;      ///< see Drawn.
-        double triangles = 0.0; ///< of the casters, when the candidates were compared.
-        unsigned frames = 0;    ///< since the candidates were compared.
-        unsigned seen = 0;      ///< frames that could be held against one before.
-        unsigned since = 0;     ///< frames since things began to move after a rest.
-        AutoMotion moving;      ///< of the recent frames.
-        AutoMotion movingThen;  ///< when the candidates were compared.
+        std::string cause;                     ///< see Drawn.
+        Situation situation;                   ///< when the candidates were compared.
+        std::optional<CandidateSearch> search; ///< that has begun.
+        double triangles = 0.0;                ///< of the casters, then.
+        unsigned frames = 0;                   ///< since the candidates were compared.
+        unsigned seen = 0;                     ///< frames that could be held against one before.
+        unsigned since = 0;                    ///< frames since things began to move after a rest.
+        AutoMotion moving;                     ///< of the recent frames.
+        AutoMotion movingThen;                 ///< when the candidates were compared.
     };
     Seen seenIn(const ShadowInView& shadow, const Selection& receiver, double error) const;
     bool isDue(Choice& choice, const Seen& now, const ShadowInView& shadow, const Selection& receiver);
-    bool isOld(const Choice& choice, const Seen& now) const;
-    void decide(Choice& choice, const Seen& now, const ShadowInView& shadow, const Selection& receiver);
+    bool isOld(const Choice& choice, const Seen& now, const ShadowInView& shadow) const;
+    void decide(Choice& choice, const Seen& now, const ShadowInView& shadow, const CandidateList& list);
 
     mutable OpenThreads::Mutex _mutex;
     InnerTechniques _inner;

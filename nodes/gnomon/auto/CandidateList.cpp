@@ -121,26 +121,35 @@ double pixelsOf(const ViewFrame& frame, const ScreenRect& bounds) {
     return size.x > 0.0 && size.y > 0.0 ? size.x * frame.pixels.x() * size.y * frame.pixels.y() : 0.0;
 }
 
-/// Finds the candidates of one view.
+} // namespace
+
+/// Does the parts of a search in one frame.
 class Lister {
 public:
-    Lister(const ShadowInView& shadow, const Selection& receiver, AutoKnowledge& known)
-        : _shadow(shadow),
+    Lister(CandidateSearch& search, const ShadowInView& shadow, const Selection& receiver, AutoKnowledge& known)
+        : _search(search),
+          _one(search._one),
+          _shadow(shadow),
           _receiver(receiver),
           _known(known),
-          _layers(shadow.casters.layers()),
-          _boxes(partsOf(shadow.casters)) {}
+          _layers(search._boxes->layers) {}
+
+    /// @return true if no more is to be found.
+    bool findFirst() {
+        _one = forecast(1, sizes[0]);
+        _result.nothing = whyNothing();
+        if (_result.nothing.empty())
+            _search._volumes = forecastVolumes(_shadow.view, _layers, _shadow.towards, _known.open);
+        return !_result.nothing.empty();
+    }
 
     CandidateList list() {
-        _one = forecast(*_boxes, 1, sizes[0]);
-        _result.nothing = whyNothing();
         if (!_result.nothing.empty()) return only();
         measure();
-        const MapEdges edges(_shadow, *_boxes, _one);
-        _widths = edges.in(_one);
+        _widths = _search._edges->in(_one);
         _sampled = _widths->empty() ? sampledEdge : _widths->usual(usualShare, sampledError);
         addTerrain();
-        addMaps(edges);
+        addMaps();
         addVolume();
         addTraced();
         const std::string onlyRays = whyOnlyRays(_shadow);
@@ -205,20 +214,23 @@ private:
         _result.all.push_back(hull);
     }
 
-    MapForecast forecast(const MapCasters& boxes, int cascades, int size) const {
+    MapForecast forecast(int cascades, int size) const {
         ShadowMapOptions options;
         options.cascades = cascades;
         options.size = size;
-        return forecastMaps(_shadow.view, _shadow.light, boxes, MapSettings(options));
+        return forecastMaps(_shadow.view, _shadow.light, *_search._boxes, MapSettings(options));
     }
 
-    /// One map, and as many as the size asks for, where those are more.
-    void addMaps(const MapEdges& edges) {
+    /// One map, and as many as the size asks for, where those are more: larger ones ask for fewer.
+    void addMaps() {
+        bool severalDiffer = _shadow.towards.w == 0.0;
         for (const int size : sizes) {
             for (const MapQuality& quality : qualities) _result.all.push_back(mapOf(_one, *_widths, 1, size, quality));
-            const MapForecast several = _shadow.towards.w == 0.0 ? forecast(*_boxes, 0, size) : _one;
-            if (several.maps == _one.maps) continue;
-            const EdgeWidths each = edges.in(several);
+            if (!severalDiffer) continue;
+            const MapForecast several = forecast(0, size);
+            severalDiffer = several.maps != _one.maps;
+            if (!severalDiffer) continue;
+            const EdgeWidths each = _search._edges->in(several);
             for (const MapQuality& quality : qualities) _result.all.push_back(mapOf(several, each, 0, size, quality));
         }
     }
@@ -263,7 +275,7 @@ private:
         volume.error = _sampled;
         volume.obstacle = whyCutOut(_shadow.casters);
         volume.still = _compose;
-        const VolumeForecast forecast = forecastVolumes(_shadow.view, _layers, _shadow.towards, _known.open);
+        const VolumeForecast& forecast = _search._volumes;
         volume.still.triangles += 2.0 * forecast.sides + forecast.caps;
         volume.still.texels += forecast.pixels + _pixels; // counts become marks
         volume.light.volumes = volume.casters.volumes = volume.view.volumes = _pieces;
@@ -288,12 +300,12 @@ private:
         _result.all.push_back(traced);
     }
 
+    CandidateSearch& _search;
+    MapForecast& _one; ///< of the search.
     const ShadowInView& _shadow;
     const Selection& _receiver;
     AutoKnowledge& _known;
     const CasterLayers& _layers;
-    const osg::ref_ptr<const MapCasters> _boxes;
-    MapForecast _one;
     double _pixels = 0.0, _casters = 0.0, _pieces = 0.0;
     std::optional<EdgeWidths> _widths; ///< of edges in `_one`.
     double _sampled = sampledEdge;     ///< error of one ray a pixel.
@@ -301,10 +313,19 @@ private:
     CandidateList _result;
 };
 
-} // namespace
-
-CandidateList listCandidates(const ShadowInView& shadow, const Selection& receiver, AutoKnowledge& known) {
-    return Lister(shadow, receiver, known).list();
+std::optional<CandidateList> CandidateSearch::look(const ShadowInView& shadow, const Selection& receiver,
+                                                   AutoKnowledge& known) {
+    if (_part == 0) _boxes = partsOf(shadow.casters);
+    Lister lister(*this, shadow, receiver, known);
+    switch (_part++) {
+    case 0:
+        return lister.findFirst() ? std::optional(lister.list()) : std::nullopt;
+    case 1:
+        _edges.emplace(shadow, *_boxes, _one);
+        return std::nullopt;
+    default:
+        return lister.list();
+    }
 }
 
 std::string whyWrong(const AutoCandidate& candidate, const ShadowInView& shadow, const Selection& receiver,
