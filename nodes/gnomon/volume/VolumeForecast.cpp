@@ -221,7 +221,13 @@ CountedVolumes beside(const VolumeForecast& counted, const VolumeForecast& estim
 }
 
 VolumeForecast corrected(const VolumeForecast& estimated, const CountedVolumes& by, double triangles) {
-    return {by.sides * estimated.sides, by.caps * triangles, by.pixels * estimated.pixels, true};
+    return {by.sides * estimated.sides, by.caps * triangles, by.pixels * estimated.pixels};
+}
+
+void add(VolumeForecast& all, const VolumeForecast& more) {
+    all.sides += more.sides;
+    all.caps += more.caps;
+    all.pixels += more.pixels;
 }
 
 } // namespace
@@ -247,19 +253,11 @@ DrawnCasters& OpenCasters::of(const CasterMesh& mesh) {
     return entry.drawn;
 }
 
-VolumeForecast& VolumeForecast::operator+=(const VolumeForecast& more) {
-    sides += more.sides;
-    caps += more.caps;
-    pixels += more.pixels;
-    counted = counted && more.counted;
-    return *this;
-}
-
 VolumeForecast forecastVolumes(const ViewFrame& view, const CasterLayers& casters, const glm::dvec4& light,
-                               OpenCasters& known, bool counts) {
+                               OpenCasters& known) {
     const SceneFrame scene(casters.origin);
     Forecaster forecaster(view, scene, light - light.w * glm::dvec4(scene.origin, 0.0));
-    std::size_t left = counts ? OpenCasters::mostTriangles : 0;
+    std::size_t left = OpenCasters::mostTriangles;
     VolumeForecast all;
     known.startRound();
     for (const PlacedMesh& placed : casters.meshes()) {
@@ -272,7 +270,7 @@ VolumeForecast forecastVolumes(const ViewFrame& view, const CasterLayers& caster
             return forecaster.take();
         };
         DrawnCasters& drawn = known.of(*placed.mesh);
-        all += estimated(drawn.closed);
+        add(all, estimated(drawn.closed));
         if (drawn.open.empty()) continue;
         const VolumeForecast open = estimated(drawn.open);
         const std::size_t triangles = drawn.openTriangles();
@@ -282,8 +280,7 @@ VolumeForecast forecastVolumes(const ViewFrame& view, const CasterLayers& caster
             drawn.counted = beside(forecaster.take(), open, double(triangles));
             drawn.openEdges.reset();
         }
-        all += drawn.counted ? corrected(open, *drawn.counted, double(triangles)) : open;
-        all.counted = all.counted && drawn.counted;
+        add(all, drawn.counted ? corrected(open, *drawn.counted, double(triangles)) : open);
     }
     return all;
 }

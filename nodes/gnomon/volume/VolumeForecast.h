@@ -68,9 +68,6 @@ struct VolumeForecast {
     double caps = 0.0;  ///< triangles of open casters, drawn where their backs may be seen, or to close volumes.
     /// That these cover, each for itself. Narrow ones count as wide as OpenGL's rasteriser takes them.
     double pixels = 0.0;
-    bool counted = true; ///< the edges of all open casters were looked at.
-
-    VolumeForecast& operator+=(const VolumeForecast& more);
 };
 
 /// Of closed casters it is found from their bounds and numbers of triangles alone: no edge is looked at.
@@ -84,10 +81,9 @@ struct VolumeForecast {
 ///
 /// @param light  group frame; w is 0 and the direction has length 1, or w is 1.
 /// @param known  the open casters of earlier answers.
-/// @param counts  false: no volumes are found that were not found before.
 ///
 /// Cost  a look at each drawable's bounds; once a mesh, volumes of what is open.
 VolumeForecast forecastVolumes(const ViewFrame& view, const CasterLayers& casters, const glm::dvec4& light,
-                               OpenCasters& known, bool counts = true);
+                               OpenCasters& known);
 
 } // namespace gnomon
