@@ -35,7 +35,7 @@ class AutoChooser;
 /// - In a scene that moves, candidates are judged again once the view, the light or the casters' bounds have changed by an
 ///   eighth, after 16 to 64 frames at the earliest, and after 128 to 512 in any case. At once where the one that is drawn would
 ///   become wrong.
-/// - The candidate that is drawn is judged as if it took and erred a fifth less. So two that are alike do not take turns.
+/// - The candidate that is drawn is judged as if it took and erred a tenth less. So two that are alike do not take turns.
 /// Cost
 /// - In a frame without change: a look at the view, the light and the drawables in sight.
 /// - A decision: a few visits of casters and receivers. In motion three frames share it; each part takes as long as a frame of the

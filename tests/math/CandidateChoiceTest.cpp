@@ -48,21 +48,22 @@ TEST(CandidateChoice, IsTheMostAccurateOfThoseThatTakeUpToAQuarterMoreThanTheChe
     EXPECT_EQ(chooseCandidate(three, 1.0)->index, 1u) << "what does not keep the error makes no other dear";
 }
 
-// A fifth better: 1 of 1.25 in time, and 0.8 of 1 in error.
-TEST(CandidateChoice, StaysUntilAnotherIsBetterByAFifth) {
+TEST(CandidateChoice, StaysUntilAnotherIsBetterByATenth) {
     std::vector<ChoiceCandidate> two = {{true, 0.5, 1.0}, {true, 0.5, 1.24}};
     EXPECT_EQ(chooseCandidate(two, 1.0, 1)->index, 1u);
     EXPECT_EQ(chooseCandidate(two, 1.0, 1)->reason, ChoiceReason::Kept);
-    two[1].time = 1.6;
+    two[1].time = 1.38;
+    EXPECT_EQ(chooseCandidate(two, 1.0, 1)->index, 1u) << "a tenth less is hardly dearer";
+    two[1].time = 1.4;
     EXPECT_EQ(chooseCandidate(two, 1.0, 1)->index, 0u);
     two[1] = {true, 1.1, 1.05};
     EXPECT_EQ(chooseCandidate(two, 1.0, 1)->index, 0u) << "it does not keep the error any more";
     two[1] = {false, 0.5, 1.05};
     EXPECT_EQ(chooseCandidate(two, 1.0, 1)->index, 0u) << "it would be wrong";
-    two = {{true, 0.5, 1.0}, {true, 0.41, 1.0}};
+    two = {{true, 0.5, 1.0}, {true, 0.46, 1.0}};
     EXPECT_EQ(chooseCandidate(two, 1.0)->index, 1u);
     EXPECT_EQ(chooseCandidate(two, 1.0, 0)->index, 0u) << "hardly more accurate";
-    two[1].error = 0.35;
+    two[1].error = 0.42;
     EXPECT_EQ(chooseCandidate(two, 1.0, 0)->index, 1u);
 }
 
@@ -96,20 +97,24 @@ TEST(ShadowWork, TakesTheTimeOfTheProcessorAndOfTheRenderer) {
     work.pixels = 1000.0;
     work.triangles = 500.0;
     gnomon::RendererRates rates{};
+    rates.instructions = 3e6;
     rates.pixel = 0.002;
     rates.triangle = 0.01;
     EXPECT_DOUBLE_EQ(rendererTime(work, rates), 7.0);
-    EXPECT_DOUBLE_EQ(processorTime(work), 0.0);
+    EXPECT_DOUBLE_EQ(processorTime(work, rates), 0.0);
     EXPECT_DOUBLE_EQ(timeOf(work, rates), 7.0);
     work.leaves = 1000.0;
-    const double drawn = processorTime(work);
+    const double drawn = processorTime(work, rates);
     EXPECT_GT(drawn, 0.0);
     EXPECT_DOUBLE_EQ(rendererTime(work, rates), 7.0) << "leaves are the processor's";
     EXPECT_DOUBLE_EQ(timeOf(work, rates), 7.0 + drawn);
     work.leaves = 3000.0;
-    EXPECT_DOUBLE_EQ(processorTime(work), 3.0 * drawn);
+    EXPECT_DOUBLE_EQ(processorTime(work, rates), 3.0 * drawn);
+    rates.instructions = 6e6;
+    EXPECT_DOUBLE_EQ(processorTime(work, rates), 1.5 * drawn);
+    rates.instructions = 3e6;
     rates.call = 0.5;
     work.calls = 4.0;
     EXPECT_DOUBLE_EQ(rendererTime(work, rates), 9.0) << "a call takes time of both";
-    EXPECT_GT(processorTime(work), 3.0 * drawn);
+    EXPECT_GT(processorTime(work, rates), 3.0 * drawn);
 }

@@ -39,7 +39,7 @@ std::string reasonFor(ChoiceReason reason, double error) {
     if (reason == ChoiceReason::Cheapest) return "the cheapest that keeps " + budget;
     if (reason == ChoiceReason::MoreAccurate)
         return "the most accurate of those that keep " + budget + " and take up to a quarter more than the cheapest";
-    if (reason == ChoiceReason::Kept) return "chosen before, and keeps " + budget + "; no other is better by a fifth";
+    if (reason == ChoiceReason::Kept) return "chosen before, and keeps " + budget + "; no other is better by a tenth";
     return "the most accurate, for none keeps " + budget;
 }
 

@@ -43,11 +43,11 @@ constexpr double callsAMap = 4.0;      // to switch to its framebuffer and back
 constexpr double darkened = 0.25;      // of the pixels where a shadow can be
 constexpr double relitAnew = 0.5;      // the same, besides, where all that is there is drawn again
 constexpr double readBack = 0.5;       // what a pixel's depth takes that the processor reads, to one that a step copies
-constexpr double lookedUp = 0.25;      // for each further map of a light a pixel takes so much longer
+constexpr double lookedUp = 0.2;       // for each further map of a light a pixel takes so much longer
 constexpr double redrawn = 0.15;       // of the frames of a moving view: a map is drawn again
 constexpr double looksOfAHull = 3.0;   // at each caster in a frame, where others look once
 constexpr double trianglesOfAHull = 3.0; // of a dense mesh, whose shadow takes as long as that of so many boxes
-constexpr double drawnOfDense = 40.0;    // triangles for one of a dense mesh, whose shadows overlap
+constexpr double drawnOfDense = 35.0;    // triangles for one of a dense mesh, whose shadows overlap
 
 /// Smaller ones leak light between fins that lie a few pixels apart, where no edge of a shadow tells it.
 constexpr int sizes[] = {512, 1024, 2048, 4096};

@@ -22,8 +22,6 @@ void limit(std::vector<ChoiceCandidate>& candidates, double ChoiceCandidate::*wh
     for (ChoiceCandidate& each : candidates) each.usable = each.usable && each.*what <= most;
 }
 
-constexpr double instructionsAMillisecond = 3e6;
-
 struct ProcessorCost {
     double ShadowWork::*count;
     double thousands; ///< of instructions, for each.
@@ -34,15 +32,15 @@ struct ProcessorCost {
 constexpr ProcessorCost processorCosts[] = {
     {&ShadowWork::calls, 23.0}, {&ShadowWork::casters, 1.7}, {&ShadowWork::leaves, 4.2}, {&ShadowWork::relit, 0.01},
     {&ShadowWork::fits, 2.2},   {&ShadowWork::volumes, 2.6}, {&ShadowWork::faced, 0.2},  {&ShadowWork::sides, 0.6},
-    {&ShadowWork::hulls, 9.0},  {&ShadowWork::rays, 0.3},
+    {&ShadowWork::hulls, 9.0},  {&ShadowWork::rays, 1.45},
 };
 
 } // namespace
 
-double processorTime(const ShadowWork& work) {
+double processorTime(const ShadowWork& work, const RendererRates& rates) {
     double thousands = 0.0;
     for (const ProcessorCost& cost : processorCosts) thousands += work.*cost.count * cost.thousands;
-    return thousands * 1e3 / instructionsAMillisecond;
+    return thousands * 1e3 / rates.instructions;
 }
 
 double rendererTime(const ShadowWork& work, const RendererRates& rates) {
@@ -51,7 +49,7 @@ double rendererTime(const ShadowWork& work, const RendererRates& rates) {
 }
 
 double timeOf(const ShadowWork& work, const RendererRates& rates) {
-    return processorTime(work) + rendererTime(work, rates);
+    return processorTime(work, rates) + rendererTime(work, rates);
 }
 
 std::optional<CandidateChoice> chooseCandidate(const std::vector<ChoiceCandidate>& candidates, double error,

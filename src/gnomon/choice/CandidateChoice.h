@@ -27,20 +27,22 @@ struct ShadowWork {
     double filled = 0.0;    ///< pixels that those cover, or that are blended.
 };
 
-/// What a renderer takes for a unit of each kind of work, milliseconds.
+/// A renderer, and the processor beside it.
 struct RendererRates {
+    double instructions; ///< that the processor executes in a millisecond.
+    /// What the renderer takes for a unit of each kind of work, milliseconds.
     double call, triangle, texel, pixel, tap, relit, filled;
 };
 
-/// llvmpipe: fitted to processor time of one core, less what the processor takes where Mesa draws nothing, over 94 frames of six
-/// scenes.
-constexpr RendererRates llvmpipeRates = {0.003, 1.3e-4, 9e-7, 1.4e-5, 1.7e-6, 2.3e-4, 1.6e-6};
-/// Graphics processors. A call took 24 µs on an NVIDIA H200, of which 8 are the processor's. The others are estimates: 10⁹
-/// triangles, 3·10¹⁰ texels and 10¹⁰ blended pixels a second.
-constexpr RendererRates graphicsRates = {0.016, 1e-6, 3e-8, 2e-7, 5e-8, 2e-6, 1e-7};
+/// llvmpipe on one core of an AMD EPYC of 14.5 instructions a nanosecond: fitted to processor time, less what the processor takes
+/// where Mesa draws nothing, of 102 frames of seven scenes.
+constexpr RendererRates llvmpipeRates = {14.5e6, 0.012, 1.6e-4, 1.04e-6, 1.4e-5, 1.7e-6, 2.4e-4, 7e-7};
+/// Graphics processors. A call took 24 µs on an NVIDIA H200 beside a processor of some 3 instructions a nanosecond, of which 8 are
+/// the processor's. The others are estimates: 10⁹ triangles, 3·10¹⁰ texels and 10¹⁰ blended pixels a second.
+constexpr RendererRates graphicsRates = {3e6, 0.016, 1e-6, 3e-8, 2e-7, 5e-8, 2e-6, 1e-7};
 
-/// Milliseconds of the processor, whoever draws.
-double processorTime(const ShadowWork& work);
+/// Milliseconds of the processor in OpenSceneGraph, in Gnomon and in OpenGL's driver.
+double processorTime(const ShadowWork& work, const RendererRates& rates);
 /// Milliseconds of the renderer.
 double rendererTime(const ShadowWork& work, const RendererRates& rates);
 /// Both together. Where a processor draws it does one after the other. Beside a graphics processor a frame takes as long as the
@@ -71,7 +73,7 @@ struct CandidateChoice {
 constexpr double hardlyDearer = 1.25;
 /// The candidate that is drawn now is judged as if it took, and erred, so many times what it does: two that are much alike do not
 /// take turns.
-constexpr double favour = 0.8;
+constexpr double favour = 0.9;
 
 /// Chooses among those that keep the error; the same arguments give the same choice.
 /// @param error   pixels, at most.
