@@ -17,7 +17,7 @@ struct Situation {
     double lens = 1.0;         ///< how much larger the view shows things than one of 90 degrees.
     double seen = 0.0;         ///< leaves in sight.
     osg::Vec4d light;          ///< w = 0 and length 1, or w = 1.
-    osg::BoundingBoxd casters; ///< valid.
+    osg::BoundingBoxd casters; ///< valid; the eye where casters draw themselves and have no bounds.
 
     /// The largest share by which anything is not as it was. Angles are in radians. Ways of the eye and of a lamp are shares of the
     /// distance to the casters' box, to which a tenth of the box's diagonal is added. The box counts by its corners, as a share of

@@ -65,7 +65,11 @@ double lostWidth(double across, double apart) { return across < apart ? apart : 
 } // namespace
 
 RayBins::RayBins(const glm::dmat4& pictureFromScene, std::vector<Ray> rays)
-    : _pictureFromScene(pictureFromScene), _rays(std::move(rays)), _bins(side * side) {
+    : _pictureFromScene(pictureFromScene),
+      _clipFromScene(glm::scale(glm::translate(glm::dmat4(1.0), {-1.0, -1.0, 0.0}), {2.0, 2.0, 1.0}) *
+                     pictureFromScene),
+      _rays(std::move(rays)),
+      _bins(side * side) {
     for (std::size_t i = 0; i < _rays.size(); ++i) {
         const glm::dvec2& at = _rays[i].at;
         if (at.x >= 0.0 && at.y >= 0.0 && at.x < 1.0 && at.y < 1.0)
@@ -120,11 +124,13 @@ void RayBins::meet(const PlacedTriangles& triangles, const Hit& hit) const {
 
 void RayBins::meet(const PlacedBox& box, const Hit& hit) const {
     if (_rays.empty()) return;
-    const glm::dmat4 clipFromPicture = glm::scale(glm::translate(glm::dmat4(1.0), {-1.0, -1.0, 0.0}), {2.0, 2.0, 1.0});
-    const auto corners = boxCorners(box.low, box.high, clipFromPicture * _pictureFromScene * box.sceneFromBox);
+    const auto corners = boxCorners(box.low, box.high, _clipFromScene * box.sceneFromBox);
     const auto bounds = screenBounds(corners);
     if (!bounds) return;
     const ScreenRect rect{(bounds->low + 1.0) / 2.0 - ofPicture, (bounds->high + 1.0) / 2.0 + ofPicture};
+    bool any = false;
+    eachIn(rect, [&any](std::size_t, const Ray&) { any = true; });
+    if (!any) return; // the rest takes longer
     const glm::dmat4 boxFromScene = glm::inverse(box.sceneFromBox);
     const glm::dmat3 turn(boxFromScene), back = glm::transpose(turn);
     eachIn(rect, [&](std::size_t number, const Ray& ray) {

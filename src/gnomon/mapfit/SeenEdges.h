@@ -65,7 +65,7 @@ private:
     template <class Visit>
     void eachIn(const ScreenRect& rect, const Visit& visit) const;
 
-    glm::dmat4 _pictureFromScene;
+    glm::dmat4 _pictureFromScene, _clipFromScene; ///< the second: of the picture's rectangle.
     std::vector<Ray> _rays;
     std::vector<std::vector<std::size_t>> _bins; ///< numbers of the rays, row by row.
 };
