@@ -65,6 +65,13 @@ private:
 std::size_t stencilBitsFor(const std::vector<ShadowJob>& jobs);
 
 /// Shares out the free stencil bits of a stage to lights, and draws the marks of jobs into them, each cut to its receiver.
+///
+/// Marks live in the stencil of the frame itself. They are drawn by tests against its depths, to the bit: sides of volumes that
+/// end in a surface, leaves that are drawn again at the depth that stands. OpenGL copies depths bit for bit only between buffers
+/// of one sample and one format, and not by every driver (see WorkBuffers::DepthCopy). Anywhere else all leaves would be drawn
+/// once more before the first mark, which takes as long as the frame.
+///
+/// Shares of a light need no depths that are exact. So they are in textures of the kit's own, see LightShares.
 class StencilMarks {
 public:
     /// Sets a bit where not all of the light of a job that fades arrives. Where there is none, the edge is hard: those that
