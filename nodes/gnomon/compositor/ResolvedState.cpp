@@ -35,6 +35,19 @@ public:
     const Attribute* attributeOf(const osgUtil::StateGraph* graph, osg::StateAttribute::Type type) {
         return found(_attributes, of(graph).attributes, [type](const Attribute& known) { return known.type == type; });
     }
+    /// What follows from all that a graph has: found once. @param fact  a bit of its own.
+    template <class Find>
+    bool holds(const osgUtil::StateGraph* graph, unsigned fact, const Find& find) {
+        of(graph);
+        if (!graph) return find();
+        const unsigned at = _last;
+        if (!(_entries[at].asked & fact)) {
+            const bool found = find();
+            _entries[at].asked |= fact;
+            if (found) _entries[at].facts |= fact;
+        }
+        return (_entries[at].facts & fact) != 0;
+    }
     bool mayApplyProgram(const osgUtil::StateGraph* graph) {
         return found(_attributes, of(graph).attributes, [](const Attribute& known) { return known.mayApplyProgram; });
     }
@@ -56,6 +69,7 @@ private:
     struct Entry {
         osg::ref_ptr<const osgUtil::StateGraph> graph; ///< held, so that its address is no other's meanwhile.
         Range modes, attributes;                       ///< those of a parent where nothing is added.
+        unsigned asked = 0, facts = 0;                 ///< see holds().
     };
 
     template <class Given, class Test>
@@ -75,6 +89,7 @@ private:
         if (slot != none) return _entries[_last = slot];
         Entry entry = of(graph->_parent);
         entry.graph = graph;
+        entry.asked = entry.facts = 0;
         if (graph->getStateSet()) add(*graph->getStateSet(), entry);
         _last = unsigned(_entries.size());
         slotOf(graph) = _last; // there may be more slots now
@@ -227,25 +242,42 @@ ProgramPlaces placesIn(const osgUtil::StateGraph* graph) {
     return program && program->getNumShaders() > 0 ? placesOf(*program) : ProgramPlaces();
 }
 
-bool isPlain(const osgUtil::StateGraph* graph) {
-    const KnownStates scope;
+namespace {
+
+bool findOpaque(const osgUtil::StateGraph* graph) {
+    return writesDepth(graph) && !isOn(graph, GL_BLEND) && !isOn(graph, GL_COLOR_LOGIC_OP);
+}
+
+bool findPlain(const osgUtil::StateGraph* graph) {
     const auto* depth = resolved<osg::Depth>(graph, osg::StateAttribute::DEPTH);
     const auto* mask = resolved<osg::ColorMask>(graph, osg::StateAttribute::COLORMASK);
-    return (!depth || (depth->getFunction() == osg::Depth::LESS && depth->getZNear() == 0.0 &&
-                       depth->getZFar() == 1.0)) &&
+    return (!depth ||
+            (depth->getFunction() == osg::Depth::LESS && depth->getZNear() == 0.0 && depth->getZFar() == 1.0)) &&
            (!mask || (mask->getRedMask() && mask->getGreenMask() && mask->getBlueMask() && mask->getAlphaMask())) &&
-           !isOn(graph, GL_STENCIL_TEST) && !isOn(graph, GL_POLYGON_OFFSET_FILL) && isOpaque(graph);
+           !isOn(graph, GL_STENCIL_TEST) && !isOn(graph, GL_POLYGON_OFFSET_FILL) && findOpaque(graph);
+}
+
+bool findFilled(const osgUtil::StateGraph* graph) {
+    const auto* mode = resolved<osg::PolygonMode>(graph, osg::StateAttribute::POLYGONMODE);
+    return !mode || (mode->getMode(osg::PolygonMode::FRONT) == osg::PolygonMode::FILL &&
+                     mode->getMode(osg::PolygonMode::BACK) == osg::PolygonMode::FILL);
+}
+
+} // namespace
+
+bool isPlain(const osgUtil::StateGraph* graph) {
+    const KnownStates scope;
+    return known.holds(graph, 1u, [graph] { return findPlain(graph); });
 }
 
 bool isOpaque(const osgUtil::StateGraph* graph) {
     const KnownStates scope;
-    return writesDepth(graph) && !isOn(graph, GL_BLEND) && !isOn(graph, GL_COLOR_LOGIC_OP);
+    return known.holds(graph, 2u, [graph] { return findOpaque(graph); });
 }
 
 bool isFilled(const osgUtil::StateGraph* graph) {
-    const auto* mode = resolved<osg::PolygonMode>(graph, osg::StateAttribute::POLYGONMODE);
-    return !mode || (mode->getMode(osg::PolygonMode::FRONT) == osg::PolygonMode::FILL &&
-                     mode->getMode(osg::PolygonMode::BACK) == osg::PolygonMode::FILL);
+    const KnownStates scope;
+    return known.holds(graph, 4u, [graph] { return findFilled(graph); });
 }
 
 bool isShaded(const osgUtil::StateGraph* graph) {
