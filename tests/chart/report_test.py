@@ -5,6 +5,7 @@ import csv
 import importlib.util
 import json
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -150,6 +151,38 @@ class Files(unittest.TestCase):
                          ("size <1024>", "0.5", "20", "7"))  # fmt: skip
         self.assertEqual({path.name for path in folder.iterdir()}, {"results.json", "results.csv", "index.html", "figure.svg",
                          "figure.png", "figure-boxes.svg", "figure-boxes.png"})  # fmt: skip
+
+    def alone(self, *points, made=()):
+        """The heads of the columns of the processor alone, the cells below the first of them, and the sentence above."""
+        file = results(*points)
+        file["made"] += made
+        folder, ended = self.run_on("results.json", file)
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        page = (folder / "index.html").read_text(encoding="utf-8").split("<h2>All points</h2>")[1]
+        heads = re.findall(r"<th[^>]*>(.*?)</th>", page)
+        rows = [re.findall(r"<td[^>]*>(.*?)</td>", row) for row in re.findall(r"<tr class.*?</tr>", page, re.S)]
+        found = [head for head in heads if head.startswith("processor alone")]
+        with open(folder / "results.csv", newline="", encoding="utf-8") as csv_file:
+            self.assertEqual(next(csv.DictReader(csv_file))["added_steady_alone_ms"], "0.25" if found else "")
+        sentence = re.search(r"Processor alone: .*?(?=</span>)", page, re.S)
+        return found, [row[heads.index(found[0])] for row in rows if found], sentence and sentence.group()
+
+    def test_of_a_chart_show_the_processor_alone_beside_wall_time(self):
+        timed, other = point("Gnomon", "map", "a", 2, 0.5), point("osgShadow", "ShadowMap", "best", 9, 3)
+        timed["cost"].update(steadyAloneMs={"q1": 0.1, "median": 0.25, "q3": 9}, movingAloneMs={"q1": 1, "median": 3, "q3": 9})
+        other["cost"].update(steadyAloneMs=None, movingAloneMs=None)  # its process ended too soon
+        heads, cells, sentence = self.alone(timed, other)
+        self.assertEqual(heads, ["processor alone, still light", "processor alone, moving light"])
+        self.assertEqual(cells, ["0.25", ""])
+        self.assertIn("where pixels cost nothing", sentence)
+
+    def test_of_a_chart_say_once_why_the_processor_alone_was_not_measured(self):
+        why = ["processor alone", "not measured: OpenGL is a card."]
+        self.assertEqual(self.alone(point("Gnomon", "map", "a", 2, 0.5), made=[why]),
+                         ([], [], "Processor alone: not measured: OpenGL is a card."))  # fmt: skip
+
+    def test_of_an_older_chart_are_shown_without_the_processor_alone(self):
+        self.assertEqual(self.alone(point("Gnomon", "map", "a", 2, 0.5)), ([], [], None))
 
     def test_of_a_stability_table_hold_where_each_budget_is_left(self):
         judged = {"p95Pixels": 0.5, "floorPixels": 0.4, "wrong": 0, "turnedAwayWrong": 0, "shadow": 9, "iou": 1.0, "lost": False, "teeth": None}

@@ -335,7 +335,9 @@ def budgets_text(rows):
 
 COLUMNS = [  # name in results.csv, head in the page or None, where it stands
     ("added_steady_ms", "ms, still light", ("cost", "steadyWallMs", "median")),
+    ("added_steady_alone_ms", "processor alone, still light", ("cost", "steadyAloneMs", "median")),
     ("added_moving_ms", "ms, moving light", ("cost", "movingWallMs", "median")),
+    ("added_moving_alone_ms", "processor alone, moving light", ("cost", "movingAloneMs", "median")),
     ("added_steady_processor_ms", None, ("cost", "steadyProcessorMs", "median")),
     ("added_moving_processor_ms", None, ("cost", "movingProcessorMs", "median")),
     ("added_first_ms", "ms, first frame", ("cost", "firstMs")),
@@ -361,6 +363,15 @@ def value(point, path):
     for part in path:
         point = (point or {}).get(part)
     return point
+
+
+def alone_text(results, is_measured):
+    """What the columns of the processor alone are, or why there are none; nothing of results that older programs made."""
+    if is_measured:
+        return ("Processor alone: ms that shadows add to a frame where pixels cost nothing, as on a graphics card. Mesa draws "
+                "nothing there.")  # fmt: skip
+    why = dict(results["made"]).get("processor alone")
+    return f"Processor alone: {why}" if why else ""
 
 
 def write_csv(file, head, rows):
@@ -429,10 +440,12 @@ scene{{ "s" if results.scenes|length != 1 }}. The table has all settings.</figca
 <figure><img loading="lazy" src="figure-{{ scene.name }}.svg" alt="error against time"></figure>
 <ul>{% for at, light, _, _, sentences in found if at is sameas scene %}<li>{{ lights[light] }}: {{ sentences|join(" ") }}</li>{% endfor %}</ul>
 <figure><img loading="lazy" src="{{ scene.truthPicture }}" alt="the truth"><figcaption>The truth, by rays.
-{% for name, text in scene.view %}{{ name }} {{ text }} {% endfor %}</figcaption></figure></details>{% endfor %}
+{% for name, text in scene.view %}{{ name }} {{ text }} {% endfor %}
+{% if scene.frameMs %}A frame without shadows takes {{ short(scene.frameMs) }} ms{% if scene.frameAloneMs %}, of the processor alone {{ short(scene.frameAloneMs) }}{% endif %}.{% endif %}</figcaption></figure></details>{% endfor %}
 <h2>All points</h2>
 <p><label>Show rows that contain <input class="filter"></label> <span class="note">A click on a head sorts. Red: a
-catastrophe. A setting leads to its picture, the error to where it is wrong (missed shadow red, false shadow blue).</span></p>
+catastrophe. A setting leads to its picture, the error to where it is wrong (missed shadow red, false shadow blue).
+{{ alone }}</span></p>
 <div class="wide"><table class="sortable"><thead><tr><th class="text">scene</th><th class="text">technique</th>
 <th class="text">setting</th>{% for head in heads %}<th>{{ head }}</th>{% endfor %}<th class="text">it says</th></tr></thead><tbody>
 {% for point in results.points %}<tr class="{{ "bad" if point.catastrophic }} {{ "ours" if point.kit == "Gnomon" }}">
@@ -459,10 +472,11 @@ def report_chart(folder, results):
     found, rows = findings(results), budgets(results)
     summary = findings_text(found)
     kept = " ".join(text for text in (predictions_text(results["points"]), budgets_text(rows)) if text)
-    columns = [(head, path) for _, head, path in COLUMNS if head]
+    is_alone = any(value(point, ("cost", "steadyAloneMs")) for point in results["points"])
+    columns = [(head, path) for _, head, path in COLUMNS if head and (is_alone or "alone" not in head)]
     page = render(CHART_PAGE, title="How fast and how wrong shadows are", results=results, file="results", summary=summary,
                   kept=kept, rows=rows, found=found, lights=LIGHTS, heads=[head for head, _ in columns], columns=columns,
-                  value=value, name_of=name_of)  # fmt: skip
+                  value=value, name_of=name_of, alone=alone_text(results, is_alone))  # fmt: skip
     (folder / "index.html").write_text(page, encoding="utf-8")
     texts = ("scene", "kit", "technique", "setting", "failure", "catastrophic", "picture", "overlay")
     write_csv(folder / "results.csv", [*texts, "notes", *(name for name, _, _ in COLUMNS)],
