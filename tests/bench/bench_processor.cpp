@@ -6,9 +6,10 @@
 
 #include <FrameTime.h>
 #include <Mesh.h>
+#include <OtherProcess.h>
+#include <ProcessorAlone.h>
 #include <StageViewer.h>
 
-#include <osg/GL>
 #include <osg/Geometry>
 #include <osg/MatrixTransform>
 #include <osg/NodeVisitor>
@@ -16,8 +17,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <filesystem>
 #include <stdexcept>
 
 #if __has_include(<valgrind/callgrind.h>)
@@ -31,9 +30,14 @@ constexpr bool canCount = false;
 
 namespace {
 
+using gnomon::examples::after;
 using gnomon::examples::ChartScene;
+using gnomon::examples::Ending;
 using gnomon::examples::Receives;
+using gnomon::examples::runCommand;
+using gnomon::examples::shellWord;
 using gnomon::examples::StageViewer;
+using gnomon::examples::thisProgram;
 using Names = std::vector<std::string>;
 
 constexpr int width = 800, height = 600;
@@ -138,19 +142,9 @@ gnomon::examples::Contender contenderOf(const std::string& technique) {
                                                                                           : Receives::EVERYTHING);
 }
 
-/// @throws std::runtime_error, one sentence, if OpenGL is not a Mesa that draws nothing.
-void requireNoDrawing(osgViewer::Viewer& viewer) {
-    viewer.getCamera()->getGraphicsContext()->makeCurrent();
-    const std::string renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-    if (renderer.find("NOOP") == std::string::npos)
-        throw std::runtime_error("OpenGL is " + renderer +
-                                 ", which draws in spite of GALLIUM_NOOP. Needed is Mesa, by OSMesa or by EGL.");
-}
-
 /// In this process: prints the median time of a frame, ms. Callgrind counts the same frames if it looks on.
 int drawHere(const Wish& wish) {
-    setenv("GALLIUM_NOOP", "1", 1);   // before Mesa is there
-    setenv("GALLIUM_THREAD", "0", 1); // with a thread for calls this driver crashes where a buffer grows
+    gnomon::examples::drawNothing();
     Stage stage(wish.scenes.front());
     StageViewer viewer(contenderOf(wish.techniques.front()).stage(stage.scene, gnomon::examples::Look::SHADED),
                        stage.scene.camera, StageViewer::Colour::BYTES);
@@ -162,7 +156,6 @@ int drawHere(const Wish& wish) {
         if (frame >= 0) times.push_back(time);
     }
     CALLGRIND_STOP_INSTRUMENTATION;
-    requireNoDrawing(viewer.viewer());
     std::printf("a frame takes %.4f ms\n", gnomon::examples::quartiles(times).median);
     return 0;
 }
@@ -173,37 +166,13 @@ struct Figure {
     std::string why;
 };
 
-struct Ending {
-    int status;
-    std::string said;
-};
-
-/// What a command of the shell says on standard output and standard error.
-Ending run(const std::string& command) {
-    FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-    if (!pipe) throw std::runtime_error("no other process can be started.");
-    Ending ending;
-    char part[4096];
-    while (const std::size_t size = std::fread(part, 1, sizeof part, pipe)) ending.said.append(part, size);
-    ending.status = pclose(pipe);
-    return ending;
-}
-
-/// What follows a word in a text, to the end of the line.
-std::string after(const std::string& word, const std::string& text) {
-    const std::size_t at = text.rfind(word);
-    if (at == std::string::npos) return "";
-    const std::size_t begin = at + word.size();
-    return text.substr(begin, text.find('\n', begin) - begin);
-}
-
 Figure figureOf(const Wish& wish, const std::string& scene, const std::string& motion, const std::string& technique) {
-    const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
     const std::string frames = std::to_string(wish.frames);
     const std::string counter =
         "valgrind --tool=callgrind --instr-atstart=no --callgrind-out-file=/dev/null "; // what is said at the end is enough
-    const Ending ending = run((wish.instructions ? counter : "") + "'" + program + "' --here --scene " + scene +
-                              " --motion " + motion + " --technique '" + technique + "' --frames " + frames);
+    const Ending ending =
+        runCommand((wish.instructions ? counter : "") + shellWord(thisProgram()) + " --here --scene " + scene +
+                   " --motion " + motion + " --technique " + shellWord(technique) + " --frames " + frames);
     if (ending.status != 0) {
         const std::string why = after("bench_processor: ", ending.said);
         return {std::nan(""), why.empty() ? "its process ended too soon." : why};
@@ -285,7 +254,7 @@ void complete(Wish& wish) {
     if (wish.here && (wish.scenes.size() != 1 || wish.motions.size() != 1 || wish.techniques.size() != 1))
         throw std::invalid_argument("--here needs one --scene, one --motion and one --technique.");
     if (wish.here && wish.instructions) throw std::invalid_argument("give either --here or --instructions.");
-    if (wish.instructions && run("command -v valgrind").status != 0)
+    if (wish.instructions && runCommand("command -v valgrind").status != 0)
         throw std::runtime_error("--instructions needs valgrind, which is not installed.");
     if (wish.instructions && !canCount)
         throw std::runtime_error(

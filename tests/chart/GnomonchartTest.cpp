@@ -65,12 +65,36 @@ TEST_F(Gnomonchart, AFileOfOnesOwnGetsItsNumbersAndPictures) {
             ASSERT_FALSE(point[name].is_null()) << name;
         EXPECT_GT(point["errors"]["awayFromEdges"]["iou"], 0.8);
         EXPECT_GT(point["cost"]["steadyWallMs"]["median"], 0.0);
+        EXPECT_TRUE(point["cost"]["movingAloneMs"].is_object());
         EXPECT_EQ(point["cost"]["passes"], 2); // once for the light, once for the eye
         for (const char* name : {"picture", "overlay"})
             EXPECT_TRUE(fs::exists(folder.path() / "o" / point[name].get<std::string>())) << name;
     }
     EXPECT_TRUE(fs::exists(folder.path() / "o" / "results.csv"));
     EXPECT_NE(readFile(folder.path() / "o" / "index.html").find("lab8"), std::string::npos);
+}
+
+/// Names that the shell and the parser of options would take apart reach the process that draws nothing as they are. Rays have no
+/// time there: depths that nothing draws start them anywhere.
+TEST_F(Gnomonchart, EachPointHasItsTimeOnTheProcessorAlone) {
+    fs::copy_file(lab8, folder.path() / "a 'b' $c.osgt");
+    const Ending ending = run({"a 'b' $c.osgt", "--quick", "--size=160x120", "--frames", "8", "--technique", "volume",
+                               "--technique", "traced", "--brief", "--flicker=0", "--out", "o"});
+    ASSERT_EQ(ending.status, 0) << ending.err;
+    const json r = results("o");
+    EXPECT_GT(r["scenes"][0]["frameAloneMs"], 0.0);
+    EXPECT_LT(r["scenes"][0]["frameAloneMs"], r["scenes"][0]["frameMs"]);
+    ASSERT_EQ(r["points"].size(), 4u);
+    for (const json& point : r["points"])
+        for (const char* name : {"steadyAloneMs", "movingAloneMs"}) {
+            const json& time = point["cost"][name];
+            ASSERT_EQ(time.is_null(), point["technique"] == "traced") << point["technique"] << ", " << point["setting"];
+            if (time.is_null()) continue;
+            EXPECT_GT(time["median"], 0.0) << name << " of " << point["setting"];
+            EXPECT_LE(time["q1"], time["q3"]);
+        }
+    EXPECT_NE(readFile(folder.path() / "o" / "index.html").find("<th>processor alone, still light</th>"),
+              std::string::npos);
 }
 
 TEST_F(Gnomonchart, AModelIsJudgedUnderTwoSunsAgainstRays) {

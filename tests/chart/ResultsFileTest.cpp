@@ -37,8 +37,8 @@ private:
 };
 
 ChartCost fullCost(Counter& next) {
-    return {next.number(), next.time(),  next.time(),  next.time(), next.time(),
-            next.number(), next.count(), next.count(), next.count()};
+    return {next.number(), next.time(),   next.time(),  next.time(),  next.time(), next.time(),
+            next.time(),   next.number(), next.count(), next.count(), next.count()};
 }
 
 ShadowMetrics fullErrors(Counter& next) {
@@ -84,7 +84,8 @@ ChartPoint fullPoint() {
 }
 
 ChartSceneResult fullScene() {
-    return {"stadt-groß", "A town\t<b>", 3000000, 1.0 / 3.0, 0.25, 4.75, "pictures/truth.png", {{"light", "1,2,3,0"}}};
+    return {"stadt-groß",         "A town\t<b>",         3000000, 1.0 / 3.0, 0.25, 4.75, 0.5,
+            "pictures/truth.png", {{"light", "1,2,3,0"}}};
 }
 
 ChartResults fullResults() {
@@ -122,6 +123,7 @@ TEST_F(ResultsFile, HoldsTextAsItIsAndNumbersThatJsonHasNotAsText) {
     results.points[0].cost->first = nan;
     results.points[0].cost->steadyWall = {-infinity, 0.0, infinity};
     results.points[0].errors->boundary.reset();
+    results.points[0].cost->movingAlone.reset();
     results.points[0].notes = {"a\xff" // no UTF-8
                                "b",
                                "影"};
@@ -134,6 +136,7 @@ TEST_F(ResultsFile, HoldsTextAsItIsAndNumbersThatJsonHasNotAsText) {
     EXPECT_EQ(point["cost"]["firstMs"], "NaN");
     EXPECT_EQ(point["cost"]["steadyWallMs"], json({{"q1", "-Infinity"}, {"median", 0.0}, {"q3", "Infinity"}}));
     EXPECT_TRUE(point["errors"]["boundaryPixels"].is_null());
+    EXPECT_TRUE(point["cost"]["movingAloneMs"].is_null());
     EXPECT_TRUE(failed["cost"].is_null() && failed["errors"].is_null() && failed["prediction"].is_null());
     EXPECT_EQ(failed["failure"], "It crashed: signal 11.");
     EXPECT_EQ(folder.list(), std::vector<std::string>{"results.json"});
@@ -157,7 +160,8 @@ std::vector<std::string> countedPlaces() {
         for (const char* name : names) places.push_back(part + "/" + name);
     };
     add("/cost", {"firstMs"});
-    for (const char* time : {"steadyWallMs", "steadyProcessorMs", "movingWallMs", "movingProcessorMs"})
+    for (const char* time :
+         {"steadyWallMs", "steadyProcessorMs", "movingWallMs", "movingProcessorMs", "steadyAloneMs", "movingAloneMs"})
         add(std::string("/cost/") + time, {"q1", "median", "q3"});
     add("/cost", {"memoryMiB", "draws", "passes", "triangles"});
     add("/errors/pixels", {"R", "R+", "Rc", "unmeasured", "droppedShare"});
@@ -178,7 +182,7 @@ std::vector<std::string> countedPlaces() {
 TEST_F(ResultsFile, EveryNumberStandsUnderItsOwnName) {
     const json point = saved(fullResults())["points"][0];
     const std::vector<std::string> places = countedPlaces();
-    ASSERT_EQ(places.size(), 70u);
+    ASSERT_EQ(places.size(), 76u);
     for (std::size_t i = 0; i < places.size(); ++i) {
         const json number = point.value(json::json_pointer(places[i]), json());
         const double third = number.is_number_float() ? 1.0 / 3.0 : 0.0; // see Counter

@@ -4,7 +4,9 @@
 #include "Contender.h"
 #include "ImageFile.h"
 #include "InputFile.h"
+#include "OtherProcess.h"
 #include "OutputFile.h"
+#include "ProcessorAlone.h"
 #include "RandomScene.h"
 #include "SceneTruth.h"
 #include "StabilityResults.h"
@@ -473,9 +475,21 @@ ChartPlan planOf(const ChartOptions& options) {
     return plan;
 }
 
-int chart(const ChartOptions& options, const std::string& command) {
+std::string commandOf(const std::vector<std::string>& words) {
+    std::string command = program;
+    for (std::size_t i = 1; i < words.size(); ++i) command += " " + words[i];
+    return command;
+}
+
+/// With it a run of the chart starts this program again, on the same scenes: see answerAlone(). For no user.
+constexpr const char* aloneOption = "--alone";
+
+int chart(const ChartOptions& options, const std::vector<std::string>& words) {
     ChartPlan plan = planOf(options);
-    plan.made.insert(plan.made.begin(), {"command", command});
+    plan.made.insert(plan.made.begin(), {"command", commandOf(words)});
+    plan.alone = words;
+    plan.alone.front() = thisProgram();
+    plan.alone.push_back(aloneOption);
     entrants(options.techniques, true); // so that no folder is made for names that are none
     requireFolder(options.out);
     if (options.resume) plan.kept = keptOf(loadResults(options.out), plan);
@@ -488,14 +502,16 @@ int chart(const ChartOptions& options, const std::string& command) {
     return ended(results.complete);
 }
 
-std::string commandOf(osg::ArgumentParser& arguments) {
-    std::string command = program;
-    for (int i = 1; i < arguments.argc(); ++i) command += std::string(" ") + arguments[i];
-    return command;
+int answer(const ChartOptions& options, const std::string& request) {
+    listenForStop();
+    answerAlone(request, planOf(options).scene, isStopped);
+    return 0;
 }
 
 int run(osg::ArgumentParser& arguments) {
-    const std::string command = commandOf(arguments);
+    const std::vector<std::string> words(arguments.argv(), arguments.argv() + arguments.argc());
+    std::string request;
+    const bool isAlone = arguments.read(aloneOption, request);
     const ChartOptions options = readChartOptions(arguments);
     if (options.help)
         std::cout << chartHelp();
@@ -508,9 +524,11 @@ int run(osg::ArgumentParser& arguments) {
     else if (options.random)
         return searchRandom(options);
     else if (options.stability)
-        return stability(options, command);
+        return stability(options, commandOf(words));
+    else if (isAlone)
+        return answer(options, request);
     else
-        return chart(options, command);
+        return chart(options, words);
     return 0;
 }
 

@@ -30,6 +30,8 @@ static ordered_json jsonOf(const ChartCost& cost) {
             {"steadyProcessorMs", jsonOf(cost.steadyProcessor)},
             {"movingWallMs", jsonOf(cost.movingWall)},
             {"movingProcessorMs", jsonOf(cost.movingProcessor)},
+            {"steadyAloneMs", jsonOf(cost.steadyAlone)},
+            {"movingAloneMs", jsonOf(cost.movingAlone)},
             {"memoryMiB", jsonOf(cost.memory)},
             {"draws", cost.draws},
             {"passes", cost.passes},
@@ -74,6 +76,7 @@ static ordered_json jsonOf(const ChartSceneResult& scene) {
             {"misclassifiedFloor", jsonOf(scene.misclassifiedFloor)},
             {"boundaryFloorPixels", jsonOf(scene.boundaryFloor)},
             {"frameMs", jsonOf(scene.frame)},
+            {"frameAloneMs", jsonOf(scene.frameAlone)},
             {"truthPicture", scene.truthPicture},
             {"view", scene.view}};
 }

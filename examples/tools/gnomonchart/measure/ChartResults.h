@@ -22,8 +22,9 @@ struct ChartCost {
     double first = 0.0;                    ///< ms, wall, first frame beyond the first frame without shadows.
     AddedTime steadyWall, steadyProcessor; ///< the camera moves, nothing else.
     AddedTime movingWall, movingProcessor; ///< the light moves.
-    double memory = 0.0;                   ///< MiB beyond the scene without shadows, where it can be told.
-    unsigned draws = 0;                    ///< calls that draw, in a steady frame.
+    std::optional<AddedTime> steadyAlone, movingAlone; ///< wall, where nothing is drawn: see ProcessorAlone.h.
+    double memory = 0.0;                               ///< MiB beyond the scene without shadows, where it can be told.
+    unsigned draws = 0;                                ///< calls that draw, in a steady frame.
     unsigned passes = 0;       ///< cameras that draw in it; Gnomon's marks and relights are in the view's own.
     std::size_t triangles = 0; ///< handed to OpenGL in it.
 };
@@ -68,6 +69,7 @@ struct ChartSceneResult {
     double misclassifiedFloor = 0.0;                       ///< share; what one perfect ray a pixel gets wrong.
     std::optional<double> boundaryFloor;                   ///< px, 95th percentile of the same.
     double frame = 0.0;                                    ///< ms, wall, median of a frame without shadows.
+    std::optional<double> frameAlone;                      ///< the same where nothing is drawn.
     std::string truthPicture;                              ///< PNG, relative to the results' folder.
     std::vector<std::pair<std::string, std::string>> view; ///< light, camera, size, as gnomonshot's options take them.
 };

@@ -5,6 +5,7 @@
 #include "FlickerRun.h"
 #include "ImageFile.h"
 #include "OutputFile.h"
+#include "ProcessorAlone.h"
 #include "Race.h"
 #include "TimeLeft.h"
 
@@ -21,7 +22,9 @@ namespace gnomon::examples {
 namespace {
 
 // Rough costs in pictures drawn, for the time left.
-constexpr double truthWork = 40.0, filmFrameWork = 15.0, stillWork = 6.0, sweptValueWork = 5.0;
+constexpr double truthWork = 40.0, filmFrameWork = 15.0, stillWork = 6.0, sweptValueWork = 5.0,
+                 aloneContenderWork = 8.0;
+constexpr int mostFramesAlone = 20; // more do not change a median that no pixel disturbs
 
 double sweepWork(const Peer& peer, SweepWidth width) {
     std::size_t values = 0;
@@ -74,8 +77,9 @@ private:
         return stillWork + 4.0 * _plan.flickerFrames + (entry.sought ? sweepWork(*entry.sought, _plan.sweep) : 0.0);
     }
     double raceWork() const { return 2.0 * _plan.frames * double(_entries.size() + 1); }
+    double aloneWork() const { return aloneContenderWork * double(_entries.size()); }
     double sceneWork() const {
-        double work = truthWork + 2.0 * _plan.flickerFrames * filmFrameWork + raceWork();
+        double work = truthWork + 2.0 * _plan.flickerFrames * filmFrameWork + raceWork() + aloneWork();
         for (const Entrant& entry : _entries) work += contenderWork(entry);
         return work;
     }
@@ -119,6 +123,8 @@ private:
         }
         _films.clear();
         raceAll(yardstick.scene());
+        timeAlone(yardstick.scene().name);
+        _save(_results);
     }
 
     void addScene(const Yardstick& yardstick) {
@@ -230,7 +236,6 @@ private:
         _results.scenes.back().frame = race.frame;
         for (std::size_t i = 0; i < _field.racerOf.size(); ++i)
             setCost(race.contenders[_field.racerOf[i]], _results.points[_field.firstPoint + i]);
-        _save(_results);
     }
 
     static void setCost(const RaceResult& result, ChartPoint& point) {
@@ -238,6 +243,37 @@ private:
         if (point.failure.empty()) point.failure = result.failure;
         if (point.prediction && result.steady) point.prediction->steady = *result.steady;
         if (point.prediction && result.moving) point.prediction->moving = *result.moving;
+    }
+
+    /// Where OpenGL draws in spite of all, that is said once, and no other scene tries.
+    void timeAlone(const std::string& scene) {
+        if (_stops() || !_aloneFailure.empty()) return;
+        const double before = _done;
+        std::size_t told = 0;
+        const auto goesOn = [&] {
+            _done = before + aloneWork() * double(told++) / double(_field.racers.size());
+            show(scene + ": the processor alone");
+            return !_stops();
+        };
+        try {
+            const int frames = std::min(_plan.frames, mostFramesAlone);
+            setAlone(timesAlone({_plan.alone, scene, frames}, _field.racers, goesOn));
+        } catch (const std::runtime_error& failure) {
+            _aloneFailure = failure.what();
+            _results.made.emplace_back("processor alone", "not measured: " + _aloneFailure);
+        }
+        _done = before + aloneWork();
+    }
+
+    void setAlone(const std::vector<std::optional<AloneTimes>>& times) {
+        for (std::size_t i = 0; i < _field.racerOf.size(); ++i) {
+            std::optional<ChartCost>& cost = _results.points[_field.firstPoint + i].cost;
+            const std::size_t racer = _field.racerOf[i];
+            if (!cost || racer >= times.size() || !times[racer]) continue;
+            cost->steadyAlone = times[racer]->steady;
+            cost->movingAlone = times[racer]->moving;
+            _results.scenes.back().frameAlone = times[racer]->frame;
+        }
     }
 
     void write(const osg::Image& image, const std::string& file) const {
@@ -261,7 +297,8 @@ private:
     TimeLeft _progress;
     double _done = 0.0;
     Field _field;
-    std::vector<Film> _films; ///< of the scene that is being measured.
+    std::string _aloneFailure; ///< why the processor alone cannot be measured.
+    std::vector<Film> _films;  ///< of the scene that is being measured.
     ChartResults _results;
 };
 

@@ -22,6 +22,7 @@ struct ChartPlan {
     SweepWidth sweep = SweepWidth::WIDE;
     bool brief = false;                                    ///< only settings that are brief, see Contender.
     bool disc = true;                                      ///< measure against the sun's disc too.
+    std::vector<std::string> alone;                        ///< see AlonePlan::command.
     std::vector<std::pair<std::string, std::string>> made; ///< what is known of the run already.
     nlohmann::ordered_json kept = ChartResults().kept;     ///< what is measured already of `scenes`, see keptOf().
 };
