@@ -108,6 +108,23 @@ TEST(ResolvedState, IsFoundAnewInTheNextScopeAndStaysInOneThatHoldsAnother) {
     EXPECT_FALSE(gnomon::isOn(graph, GL_FOG)) << "resolved once, until the outer scope ends";
 }
 
+TEST(ResolvedState, OfALongChainIsThatOfItsTop) {
+    for (const int known : {0, 31, 100}) {
+        const osg::ref_ptr<osgUtil::StateGraph> root = new osgUtil::StateGraph;
+        std::vector<osg::ref_ptr<osg::StateSet>> sets;
+        const gnomon::KnownStates scope;
+        const auto below = [&](osgUtil::StateGraph* graph) {
+            sets.push_back(new osg::StateSet);
+            return graph->find_or_insert(sets.back());
+        };
+        for (int i = 0; i < known; ++i) EXPECT_FALSE(gnomon::isOn(below(root), GL_FOG));
+        osgUtil::StateGraph* graph = below(root);
+        sets.back()->setMode(GL_FOG, A::ON);
+        for (int i = 0; i < 1000; ++i) graph = below(graph);
+        EXPECT_TRUE(gnomon::isOn(graph, GL_FOG));
+    }
+}
+
 /// As one that a cull has let go, and a new one at its address.
 TEST(ResolvedState, OfAGraphThatTookTheAddressOfAnotherIsItsOwn) {
     const gnomon::KnownStates scope;

@@ -29,7 +29,7 @@ Situation::Situation(const ShadowInView& shadow)
     eye = groupFromEye.getTrans();
     ahead = osg::Matrixd::transform3x3(osg::Vec3d(0.0, 0.0, -1.0), groupFromEye);
     ahead.normalize();
-    if (!casters.valid()) casters.set(eye, eye);
+    if (!casters.valid() || !std::isfinite(casters.radius2())) casters.set(eye, eye);
 }
 
 double Situation::changeTo(const Situation& now) const {

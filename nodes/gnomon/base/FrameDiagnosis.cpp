@@ -59,9 +59,10 @@ void FrameDiagnosis::add(unsigned frame, const std::string& who, const std::stri
 
 bool FrameDiagnosis::isNewsOf(unsigned frame, const std::string& sentence, CauseKind kind) {
     Lock lock(_mutex);
+    if (kind == CauseKind::Slow && std::find(_slow.begin(), _slow.end(), sentence) == _slow.end())
+        _slow.push_back(sentence); // another view may have begun a frame while this one was looking
     if (frame != _frame || !_known.insert(sentence).second) return false;
     _causes.push_back(sentence);
-    if (kind == CauseKind::Slow) _slow.push_back(sentence);
     return !_asked && _warned.insert(withoutDigits(sentence)).second;
 }
 

@@ -20,7 +20,9 @@ void bindTexture(osg::State& state, GLuint texture) {
 } // namespace
 
 void ShareTextures::fit(osg::State& state, std::size_t count, GLsizei width, GLsizei height) {
-    if (_names.size() >= count && _width >= width && _height >= height) return;
+    const GLint format = glInteger(GL_ALPHA_BITS) > 8 ? GL_RGBA16 : GL_RGBA8;
+    if (_names.size() >= count && _width >= width && _height >= height && format == _format) return;
+    _format = format;
     _width = std::max(_width, width);
     _height = std::max(_height, height);
     _names.resize(std::max(_names.size(), count), 0);
@@ -29,7 +31,7 @@ void ShareTextures::fit(osg::State& state, std::size_t count, GLsizei width, GLs
         bindTexture(state, name);
         for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
             glTexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
-        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, _width, _height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+        glTexImage2D(GL_TEXTURE_2D, 0, _format, _width, _height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
     }
 }
 
@@ -45,6 +47,7 @@ void ShareTextures::discardAllGLObjects() {
 
 LightShares::LightShares(const CompositorStage& draw, const Jobs& fading)
     : _draw(draw), _jobs(fading), _textures(*osg::get<ShareTextures>(draw.state.getContextID())) {
+    if (_jobs.empty()) return;
     const PixelRect all = pixelsOf(*draw.stage.getViewport());
     _draw.pass(wholeScreen,
                [&](ScreenPass&) { _textures.fit(draw.state, _jobs.size(), all.x + all.width, all.y + all.height); });

@@ -16,7 +16,7 @@ class ShareTextures : public osg::GraphicsObjectManager {
 public:
     explicit ShareTextures(unsigned context) : osg::GraphicsObjectManager("gnomon::ShareTextures", context) {}
 
-    /// So many, at least of that size.
+    /// So many, at least of that size; of 16 bits where the framebuffer that is drawn to has more than 8.
     void fit(osg::State& state, std::size_t count, GLsizei width, GLsizei height);
     GLuint operator[](std::size_t i) const { return _names[i]; }
     GLsizei width() const { return _width; }
@@ -35,13 +35,15 @@ protected:
 private:
     std::vector<GLuint> _names;
     GLsizei _width = 0, _height = 0;
+    GLint _format = 0;
 };
 
 /// What share of its light arrives by each of several jobs that fade, a pixel one, whatever its samples: looked up once, into
 /// textures of the kit's own, however often it is asked for. In them no depth stands, and all of the light arrives where
 /// nothing is.
 ///
-/// Needs framebuffer objects.
+/// Needs   framebuffer objects.
+/// Threads one a context; contexts that share objects draw one after the other.
 class LightShares {
 public:
     /// Draws the marks. @param draw  must outlive this, as must the jobs.

@@ -25,7 +25,7 @@ public:
     };
     struct Attribute {
         osg::StateAttribute::Type type; ///< the first of its type alone, as of lights.
-        const osg::StateAttribute* attribute;
+        osg::ref_ptr<const osg::StateAttribute> attribute;
         bool overrides, mayApplyProgram;
     };
 
@@ -52,9 +52,11 @@ public:
         return found(_attributes, of(graph).attributes, [](const Attribute& known) { return known.mayApplyProgram; });
     }
     void clear() {
+        const std::size_t used = _entries.size();
         _entries.clear();
         _modes.clear();
         _attributes.clear();
+        if (_slots.size() > 1024 + 16 * used) _slots.clear(); // as many as a large scene needs
         std::fill(_slots.begin(), _slots.end(), none);
         _last = none;
     }
@@ -84,10 +86,10 @@ private:
         static const Entry nothing;
         if (!graph) return nothing;
         if (_last != none && _entries[_last].graph == graph) return _entries[_last];
+        if (_slots.empty()) widen();
+        if (const unsigned slot = slotOf(graph); slot != none) return _entries[_last = slot];
+        Entry entry = of(graph->_parent); // which adds all that are above
         if (2 * _entries.size() >= _slots.size()) widen();
-        unsigned& slot = slotOf(graph);
-        if (slot != none) return _entries[_last = slot];
-        Entry entry = of(graph->_parent);
         entry.graph = graph;
         entry.asked = entry.facts = 0;
         if (graph->getStateSet()) add(*graph->getStateSet(), entry);
@@ -214,7 +216,7 @@ const osg::StateAttribute* resolvedAttribute(const osgUtil::StateGraph* graph, o
     const KnownStates scope;
     const StateTable::Attribute* given = known.attributeOf(graph, type);
     if (overrides) *overrides = given && given->overrides;
-    return given ? given->attribute : nullptr;
+    return given ? given->attribute.get() : nullptr;
 }
 
 osg::Vec2d polygonOffsetOf(const osgUtil::StateGraph* graph) {

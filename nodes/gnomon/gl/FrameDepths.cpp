@@ -200,9 +200,9 @@ std::shared_ptr<FrameDepths> FrameDepths::shared() {
 void FrameDepths::begin(const osg::State& state, const PixelRect& pixels) {
     const std::shared_ptr<FrameDepths> depths = sharedIfAny();
     if (!depths) return;
-    Kept& kept = depths->of(state);
-    kept.held = {};
-    kept.wanted = pixels;
+    const std::shared_ptr<Kept> kept = depths->of(state);
+    kept->held = {};
+    kept->wanted = pixels;
 }
 
 void FrameDepths::hold(osg::State& state, const PixelRect& pixels) {
@@ -210,22 +210,23 @@ void FrameDepths::hold(osg::State& state, const PixelRect& pixels) {
 }
 
 void FrameDepths::forget(const osg::State& state) {
-    if (const std::shared_ptr<FrameDepths> depths = sharedIfAny()) depths->of(state).held = {};
+    if (const std::shared_ptr<FrameDepths> depths = sharedIfAny()) depths->of(state)->held = {};
 }
 
-FrameDepths::Kept& FrameDepths::of(const osg::State& state) {
+std::shared_ptr<FrameDepths::Kept> FrameDepths::of(const osg::State& state) {
     Lock lock(_mutex);
-    return _kept[state.getContextID()];
+    std::shared_ptr<Kept>& kept = _kept[state.getContextID()];
+    if (!kept) kept = std::make_shared<Kept>();
+    return kept;
 }
 
 FrameDepths::Copy FrameDepths::copy(osg::State& state, const PixelRect& pixels) {
-    Kept& kept = of(state);
-    if (kept.held.empty() || !holds(kept.held, pixels)) {
-        const PixelRect all = united(pixels, kept.wanted);
-        kept.copy = make(state, kept, all);
-        kept.held = kept.copy.cause.empty() ? all : PixelRect();
+    const std::shared_ptr<Kept> kept = of(state);
+    if (kept->held.empty() || !holds(kept->held, pixels)) {
+        kept->held = united(pixels, kept->wanted);
+        kept->copy = make(state, *kept, kept->held);
     }
-    return kept.copy;
+    return kept->copy;
 }
 
 FrameDepths::Copy FrameDepths::make(osg::State& state, Kept& kept, const PixelRect& pixels) {
@@ -242,7 +243,7 @@ FrameDepths::Copy FrameDepths::make(osg::State& state, Kept& kept, const PixelRe
     result.texture = target.texture;
     const auto read = [&] { result.rows = transfer(state, target, pixels); };
     if (resolves) {
-        const auto place = _resolved.read(state, pixels, read);
+        const auto place = kept.resolved.read(state, pixels, read);
         if (!place) return {unresolvedDepth};
         result.error.z = place->x - 0.5;
         result.error.w = place->y - 0.5;
@@ -297,14 +298,11 @@ void FrameDepths::fit(Target& target, const osg::State& state, const PixelRect& 
 }
 
 void FrameDepths::release(osg::State* state) {
-    _resolved.release(state);
     Lock lock(_mutex);
-    for (auto entry = _kept.begin(); entry != _kept.end();) {
-        const bool meant = !state || state->getContextID() == entry->first;
-        for (const Target& target : {entry->second.packed, entry->second.plain})
-            if (meant && target.texture) target.texture->releaseGLObjects(state);
-        entry = meant ? _kept.erase(entry) : std::next(entry);
-    }
+    if (state)
+        _kept.erase(state->getContextID());
+    else
+        _kept.clear();
 }
 
 glm::dmat4 clipFromPixel(const osg::Viewport& viewport) {

@@ -69,7 +69,7 @@ private:
 /// A frame's depths as a texture, copied on the GPU for marks that look at them; one a context, kept from frame to frame, and
 /// another one where depths are of another format. While no depth is written, one copy serves all marks.
 ///
-/// Threads one a context.
+/// Threads one a context; contexts that share objects draw one after the other.
 class FrameDepths {
 public:
     /// What was copied, and how far off it may be: see depthBufferShadow().
@@ -105,20 +105,21 @@ private:
     };
     /// Of one context.
     struct Kept {
+        ResolvedDepth resolved;
         Target packed, plain;
         PixelRect wanted; ///< see begin().
         PixelRect held;   ///< that the copy is of: none once it is forgotten.
         Copy copy;
     };
-    Kept& of(const osg::State& state);
-    Copy make(osg::State& state, Kept& kept, const PixelRect& pixels);
+    std::shared_ptr<Kept> of(const osg::State& state);
+    static Copy make(osg::State& state, Kept& kept, const PixelRect& pixels);
     static void fit(Target& target, const osg::State& state, const PixelRect& pixels);
     static glm::dvec2 transfer(osg::State& state, Target& target, const PixelRect& pixels);
     static bool mirror(osg::State& state, Target& target, const PixelRect& pixels);
 
-    ResolvedDepth _resolved;
     OpenThreads::Mutex _mutex;
-    std::map<unsigned, Kept> _kept; ///< by context.
+    std::map<unsigned, std::shared_ptr<Kept>>
+        _kept; ///< by context. Another technique may let go of it while this one draws.
 };
 
 /// From window coordinates x and y, and 1 - depth, of which floats are fine far away.

@@ -159,7 +159,8 @@ PlacedBox::PlacedBox(const glm::dvec3& lowest, const glm::dvec3& highest, const 
     const glm::dvec3 x = half.x * glm::dvec3(toScene[0]), y = half.y * glm::dvec3(toScene[1]),
                      z = half.z * glm::dvec3(toScene[2]);
     const double skew = std::abs(glm::dot(x, y)) + std::abs(glm::dot(y, z)) + std::abs(glm::dot(z, x));
-    radius = std::sqrt(glm::dot(x, x) + glm::dot(y, y) + glm::dot(z, z) + 2.0 * skew);
+    const double found = std::sqrt(glm::dot(x, x) + glm::dot(y, y) + glm::dot(z, z) + 2.0 * skew);
+    if (found >= 0.0) radius = found; // no number where a side is infinite
 }
 
 HalfSpaces both(HalfSpaces some, const HalfSpaces& others) {
