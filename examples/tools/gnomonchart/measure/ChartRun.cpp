@@ -23,7 +23,7 @@ namespace {
 
 // Rough costs in pictures drawn, for the time left.
 constexpr double truthWork = 40.0, filmFrameWork = 15.0, stillWork = 6.0, sweptValueWork = 5.0,
-                 aloneContenderWork = 8.0;
+                 aloneContenderWork = 2.0;
 constexpr int mostFramesAlone = 20; // more do not change a median that no pixel disturbs
 
 double sweepWork(const Peer& peer, SweepWidth width) {
@@ -124,7 +124,6 @@ private:
         _films.clear();
         raceAll(yardstick.scene());
         timeAlone(yardstick.scene().name);
-        _save(_results);
     }
 
     void addScene(const Yardstick& yardstick) {
@@ -236,6 +235,7 @@ private:
         _results.scenes.back().frame = race.frame;
         for (std::size_t i = 0; i < _field.racerOf.size(); ++i)
             setCost(race.contenders[_field.racerOf[i]], _results.points[_field.firstPoint + i]);
+        _save(_results);
     }
 
     static void setCost(const RaceResult& result, ChartPoint& point) {
@@ -263,6 +263,7 @@ private:
             _results.made.emplace_back("processor alone", "not measured: " + _aloneFailure);
         }
         _done = before + aloneWork();
+        _save(_results);
     }
 
     void setAlone(const std::vector<std::optional<AloneTimes>>& times) {
