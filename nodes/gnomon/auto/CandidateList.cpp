@@ -42,6 +42,7 @@ constexpr double callsToRelight = 3.0; // to take depth back where marks are
 constexpr double callsAMap = 4.0;      // to switch to its framebuffer and back
 constexpr double darkened = 0.25;      // of the pixels where a shadow can be
 constexpr double relitAnew = 0.5;      // the same, besides, where all that is there is drawn again
+constexpr double faded = 1.6;          // times as many leaves are relit where pixels have a share of the light
 constexpr double readBack = 0.5;       // what a pixel's depth takes that the processor reads, to one that a step copies
 constexpr double lookedUp = 0.2;       // for each further map of a light a pixel takes so much longer
 constexpr double redrawn = 0.15;       // of the frames of a moving view: a map is drawn again
@@ -253,6 +254,7 @@ private:
         const double passes = quality.edges == Map::SMOOTH && !blends() ? 2.0 : 1.0;
         map.still = _compose;
         map.still.calls += 3.0 * passes;
+        map.still.leaves *= passes > 1.0 ? faded : 1.0;
         map.still.pixels = passes * _pixels * (1.0 + lookedUp * (forecast.maps - 1));
         map.still.taps = passes * _pixels * quality.edge.compared;
         const auto drawAgain = [&](ShadowWork& work, double share) {
