@@ -105,6 +105,15 @@ TEST(MendedStills, MapAndAutoAreAsGoodAsARayAPixelWhereShadowsAreThin) {
     }
 }
 
+/// The sun shines through no foot of a house from below its ground: a coarse map was taken for as exact as its edges.
+TEST(MendedStills, AutoLightsNothingFromBelowTheGround) {
+    for (const double elevation : {-30.0, -80.0}) {
+        const StabilityCell cell = measured("L2", elevation, {named("auto")})[0];
+        EXPECT_EQ(cell.everywhere.wrong, 0u) << elevation;
+        EXPECT_TRUE(cell.inBudget()) << elevation;
+    }
+}
+
 /// Rays began within the house where a pixel's neighbour is on another face; and under all that is seen, for OpenGL's floats
 /// place it deeper.
 TEST(MendedStills, TracedIsRightThroughATelescope) {

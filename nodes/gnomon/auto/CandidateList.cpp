@@ -250,6 +250,8 @@ private:
                                   : edges.usual(usualShare,
                                                 [&](const auto& edge) { return mapError(edge, quality.edge, texels); });
         map.error = std::max(map.error, edges.leak(texels));
+        // Under a ground that hides the light, what stands on it is lit along its foot, where no edge of a shadow tells it.
+        if (forecast.touchesFlat) map.error = std::max(map.error, forecast.texels / texels);
         map.why = "its texels are as large as " + roundedText(forecast.texels / texels) + " px";
         const double passes = quality.edges == Map::SMOOTH && !blends() ? 2.0 : 1.0;
         map.still = _compose;

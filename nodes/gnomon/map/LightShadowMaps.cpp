@@ -273,6 +273,7 @@ MapForecast LightShadowMaps::forecast() const {
     MapForecast result;
     result.maps = mapsNeeded();
     result.most = mostTexels();
+    result.touchesFlat = _faces.flatsCast() && anyTouchesBehind(*_faces.request().casters, _faces.request().light);
     for (const Face& face : _faces.each) {
         const double looks = face.side->frame.isParallel ? 1.0 : 2.0; // a lamp's are divided by distance
         result.fits += looks * (fitsOfAMap + double(face.side->blockers.size() * _faces.seen().receivers.size()));

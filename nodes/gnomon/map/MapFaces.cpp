@@ -89,6 +89,26 @@ bool anyIsBetween(const MapCasters& casters, const glm::dvec4& light, const std:
     });
 }
 
+bool anyTouchesBehind(const MapCasters& casters, const glm::dvec4& light) {
+    constexpr double close = 1e-3; // of the body's height over it
+    const auto touches = [&](const MapBox& flat, const MapBox& body) {
+        const glm::dvec4 half = beyond(flat, light, casters.layers.reach);
+        for (int axis = 0; axis < 3; ++axis)
+            if (half[axis] == 0.0 && (body.low[axis] > flat.high[axis] || body.high[axis] < flat.low[axis]))
+                return false;
+        const double low = glm::dot(half, glm::dvec4(body.low, 1.0)), high = glm::dot(half, glm::dvec4(body.high, 1.0));
+        return std::abs(std::min(low, high)) <= close * std::abs(high - low) && std::max(low, high) > 0.0;
+    };
+    const MapLayer* layers[] = {casters.still.get(), casters.moving.get()};
+    for (const MapLayer* of : layers)
+        for (const MapPart& flat : of->flats)
+            for (const MapLayer* all : layers)
+                if (std::any_of(all->bodies.begin(), all->bodies.end(),
+                                [&](const MapPart& body) { return touches(flat, body); }))
+                    return true;
+    return false;
+}
+
 void MapFaces::begin(const MapRequest& request, bool flats) {
     _request = request;
     _flats = flats;
