@@ -67,6 +67,16 @@ TEST(CandidateChoice, StaysUntilAnotherIsBetterByATenth) {
     EXPECT_EQ(chooseCandidate(two, 1.0, 0)->index, 1u);
 }
 
+TEST(CandidateChoice, HasFlawsOnlyIfNoOtherKeepsTheError) {
+    std::vector<ChoiceCandidate> two = {{true, 0.1, 1.0, true}, {true, 0.4, 3.0}};
+    EXPECT_EQ(chooseCandidate(two, 1.0)->index, 1u);
+    EXPECT_EQ(chooseCandidate(two, 1.0, 0)->index, 1u) << "at once";
+    EXPECT_EQ(chooseCandidate(two, 0.2)->index, 0u);
+    EXPECT_EQ(chooseCandidate(two, 0.05)->index, 0u) << "the most accurate";
+    two[1].usable = false;
+    EXPECT_EQ(chooseCandidate(two, 1.0)->index, 0u);
+}
+
 // Times and errors of two cross, as in a flight: first one is better by half, at the end the other.
 TEST(CandidateChoice, ChangesOnceWhereTwoCross) {
     for (const bool byError : {false, true}) {

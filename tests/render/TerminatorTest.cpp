@@ -66,7 +66,7 @@ int darker(const Picture& a, const Picture& b, int by) {
 
 /// All of light's diffuse is 178 of 255, so that 8 is a step of 3 degrees of shading.
 constexpr int step = 8;
-constexpr int stepOfMap = 12; // which decides by texels, and which auto may take
+constexpr int stepOfMap = 12; // which decides by texels
 
 } // namespace
 
@@ -82,9 +82,9 @@ TEST(Terminator, ConvexSmoothBodiesAreNoDarkerThanWithoutShadows) {
                 const View view = viewOf(from);
                 const Picture without = pictureOf(body, light, "", view);
                 for (const std::string technique : techniques)
-                    EXPECT_EQ(darker(pictureOf(body, light, technique, view), without,
-                                     technique == "map" || technique == "auto" ? stepOfMap : step),
-                              0)
+                    EXPECT_EQ(
+                        darker(pictureOf(body, light, technique, view), without, technique == "map" ? stepOfMap : step),
+                        0)
                         << name << " " << technique << " " << light.x() << " from " << from;
             }
 }

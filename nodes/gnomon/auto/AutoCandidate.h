@@ -27,6 +27,7 @@ struct AutoCandidate {
     Kind kind = Kind::Nothing;
     ShadowMapOptions map = {};
     double error = 0.0;                             ///< pixels.
+    bool flawed = false;                            ///< see ChoiceCandidate.
     ShadowWork still = {};                          ///< in every frame.
     ShadowWork light = {}, casters = {}, view = {}; ///< besides, in a frame in which these move; see AutoMotion.
     std::string why = {};                           ///< the facts that it suits, in a few words.

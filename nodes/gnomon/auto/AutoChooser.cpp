@@ -132,7 +132,8 @@ void AutoChooser::decide(Choice& choice, const Seen& now, const ShadowInView& sh
     std::optional<std::size_t> before;
     for (const AutoCandidate& candidate : list.all) {
         if (decision.decisions > 0 && candidate.isSame(choice.candidate)) before = judged.size();
-        judged.push_back({candidate.obstacle.empty(), candidate.error, candidate.time(rates, expected)});
+        judged.push_back(
+            {candidate.obstacle.empty(), candidate.error, candidate.time(rates, expected), candidate.flawed});
     }
     const CandidateChoice chosen =
         chooseCandidate(judged, now.error, before).value_or(CandidateChoice{0, ChoiceReason::Cheapest});

@@ -189,6 +189,9 @@ private:
         _pixels = pixelsOf(_shadow.view, *_one.bounds);
         _casters = double(_layers.triangles());
         _pieces = double(_shadow.casters.list.size());
+        const std::vector<PlacedMesh> meshes = _layers.meshes();
+        _smooth = std::any_of(meshes.begin(), meshes.end(),
+                              [](const PlacedMesh& placed) { return offsetsOf(*placed.mesh) != nullptr; });
         _compose.calls = callsOfAll;
         _compose.casters = _pieces;
         _compose.filled = darkened * _pixels;
@@ -244,6 +247,7 @@ private:
         map.map.filter = quality.filter;
         map.map.edges = quality.edges;
         map.map.cascades = cascades;
+        map.flawed = _smooth && quality.edges == Map::SMOOTH; // dark pixels where smooth bodies turn from the light
         const double wish = MapSettings(map.map).widestTexel;
         const int texels = texelsFor(forecast.texels / wish, std::min(size, forecast.most), 0);
         map.error = edges.empty() ? mapError(quality.edge, forecast.texels / texels)
@@ -311,6 +315,7 @@ private:
     AutoKnowledge& _known;
     const CasterLayers& _layers;
     double _pixels = 0.0, _casters = 0.0, _pieces = 0.0;
+    bool _smooth = false;              ///< bodies cast from farther on, see CasterMesh::offsets.
     std::optional<EdgeWidths> _widths; ///< of edges in `_one`.
     double _sampled = sampledEdge;     ///< error of one ray a pixel.
     ShadowWork _compose;

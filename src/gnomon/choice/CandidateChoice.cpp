@@ -57,6 +57,9 @@ std::optional<CandidateChoice> chooseCandidate(const std::vector<ChoiceCandidate
     std::vector<ChoiceCandidate> left = candidates;
     const bool keepsError = leastOf(&ChoiceCandidate::error, candidates) <= error;
     if (keepsError) limit(left, &ChoiceCandidate::error, error);
+    const auto isFlawless = [](const ChoiceCandidate& each) { return each.usable && !each.flawed; };
+    if (keepsError && std::any_of(left.begin(), left.end(), isFlawless))
+        for (ChoiceCandidate& each : left) each.usable = isFlawless(each);
     if (before) {
         left[*before].time *= favour;
         left[*before].error *= favour;

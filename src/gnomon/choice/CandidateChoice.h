@@ -51,9 +51,10 @@ double timeOf(const ShadowWork& work, const RendererRates& rates);
 
 /// What a way to draw shadows is expected to come to.
 struct ChoiceCandidate {
-    bool usable = true; ///< else the shadow would be wrong, or missing.
-    double error = 0.0; ///< pixels.
-    double time = 0.0;  ///< milliseconds a frame.
+    bool usable = true;  ///< else the shadow would be wrong, or missing.
+    double error = 0.0;  ///< pixels.
+    double time = 0.0;   ///< milliseconds a frame.
+    bool flawed = false; ///< has specks where no edge is: taken only if no other keeps the error.
 };
 
 enum class ChoiceReason {
