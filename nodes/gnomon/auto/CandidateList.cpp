@@ -247,15 +247,14 @@ private:
         map.map.filter = quality.filter;
         map.map.edges = quality.edges;
         map.map.cascades = cascades;
-        map.flawed = _smooth && quality.edges == Map::SMOOTH; // dark pixels where smooth bodies turn from the light
+        // Dark pixels where smooth bodies turn from the light; and light along the foot of what stands on a ground that hides it.
+        map.flawed = (_smooth && quality.edges == Map::SMOOTH) || forecast.touchesFlat;
         const double wish = MapSettings(map.map).widestTexel;
         const int texels = texelsFor(forecast.texels / wish, std::min(size, forecast.most), 0);
         map.error = edges.empty() ? mapError(quality.edge, forecast.texels / texels)
                                   : edges.usual(usualShare,
                                                 [&](const auto& edge) { return mapError(edge, quality.edge, texels); });
         map.error = std::max(map.error, edges.leak(texels));
-        // Under a ground that hides the light, what stands on it is lit along its foot, where no edge of a shadow tells it.
-        if (forecast.touchesFlat) map.error = std::max(map.error, forecast.texels / texels);
         map.why = "its texels are as large as " + roundedText(forecast.texels / texels) + " px";
         const double passes = quality.edges == Map::SMOOTH && !blends() ? 2.0 : 1.0;
         map.still = _compose;
