@@ -85,6 +85,22 @@ void countedBlit(GLint x, GLint y, GLint right, GLint top, GLint toX, GLint toY,
     realBlit(x, y, right, top, toX, toY, toRight, toTop, mask, filter);
 }
 
+/// Counts the blits of a camera's context in `blits`, from 0, while it lives.
+struct CountedBlits {
+    explicit CountedBlits(test::Camera& camera)
+        : gl(*osg::GLExtensions::Get(camera.viewer().getCamera()->getGraphicsContext()->getState()->getContextID(),
+                                     false)) {
+        realBlit = gl.glBlitFramebuffer;
+        gl.glBlitFramebuffer = countedBlit;
+        blits = 0;
+    }
+    ~CountedBlits() { gl.glBlitFramebuffer = realBlit; }
+    CountedBlits(const CountedBlits&) = delete;
+    CountedBlits& operator=(const CountedBlits&) = delete;
+
+    osg::GLExtensions& gl;
+};
+
 /// As an OpenGL without framebuffers to copy between does it.
 TEST(Map, IsTheSameWhereDepthsAreNotCopiedMirrored) {
     const TracedCase given = labEight();
@@ -92,17 +108,12 @@ TEST(Map, IsTheSameWhereDepthsAreNotCopiedMirrored) {
     scene.addShadow(mapOf(1024));
     test::Camera camera(scene.root, given.view);
     camera.frame(); // draws the map
-    const unsigned context = camera.viewer().getCamera()->getGraphicsContext()->getState()->getContextID();
-    osg::GLExtensions& gl = *osg::GLExtensions::Get(context, false);
-    realBlit = gl.glBlitFramebuffer;
+    const CountedBlits counted(camera);
     ASSERT_NE(realBlit, nullptr);
-    gl.glBlitFramebuffer = countedBlit;
-    blits = 0;
     const Picture expected = camera.frame();
     EXPECT_EQ(blits, 1);
-    gl.glBlitFramebuffer = nullptr;
+    counted.gl.glBlitFramebuffer = nullptr;
     EXPECT_EQ(camera.frame().different(expected), 0);
-    gl.glBlitFramebuffer = realBlit;
 }
 
 TEST(Map, OfSeveralLightsLookAtOneCopyOfTheDepths) {
@@ -120,15 +131,10 @@ TEST(Map, OfSeveralLightsLookAtOneCopyOfTheDepths) {
             scene.group->setComposite(composite);
             test::Camera camera(scene.root, labEight().view);
             camera.frame(); // draws the maps
-            const unsigned context = camera.viewer().getCamera()->getGraphicsContext()->getState()->getContextID();
-            osg::GLExtensions& gl = *osg::GLExtensions::Get(context, false);
-            realBlit = gl.glBlitFramebuffer;
+            const CountedBlits counted(camera);
             ASSERT_NE(realBlit, nullptr);
-            gl.glBlitFramebuffer = countedBlit;
-            blits = 0;
             camera.frame();
             EXPECT_EQ(blits, 1) << composite << " " << edges;
-            gl.glBlitFramebuffer = realBlit;
         }
 }
 

@@ -93,17 +93,10 @@ void LightShares::drawTexture(const ShadowJob& job, ScreenPass& screen) const {
     bindTexture(state, _textures[i]);
     glEnable(GL_TEXTURE_2D);
     glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_REPLACE);
-    state.applyProjectionMatrix(nullptr);
-    state.applyModelViewMatrix(nullptr);
     const PixelRect all = pixelsOf(*_draw.stage.getViewport());
-    glBegin(GL_TRIANGLE_STRIP);
-    for (const int y : {0, 1})
-        for (const int x : {0, 1}) {
-            glTexCoord2d(double(all.x + x * all.width) / _textures.width(),
-                         double(all.y + y * all.height) / _textures.height());
-            glVertex3i(2 * x - 1, 2 * y - 1, 1);
-        }
-    glEnd();
+    const glm::dvec2 size(_textures.width(), _textures.height());
+    drawTexturedQuad(state, glm::dvec2(all.x, all.y) / size, glm::dvec2(all.x + all.width, all.y + all.height) / size,
+                     1.0);
     glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_MODULATE);
     glDisable(GL_TEXTURE_2D);
     state.haveAppliedTextureAttribute(0, osg::StateAttribute::TEXENV);

@@ -246,6 +246,9 @@ ProgramPlaces placesIn(const osgUtil::StateGraph* graph) {
 
 namespace {
 
+/// Bits for StateTable::holds().
+enum Fact : unsigned { Plain = 1, Opaque = 2, Filled = 4 };
+
 bool findOpaque(const osgUtil::StateGraph* graph) {
     return writesDepth(graph) && !isOn(graph, GL_BLEND) && !isOn(graph, GL_COLOR_LOGIC_OP);
 }
@@ -269,17 +272,17 @@ bool findFilled(const osgUtil::StateGraph* graph) {
 
 bool isPlain(const osgUtil::StateGraph* graph) {
     const KnownStates scope;
-    return known.holds(graph, 1u, [graph] { return findPlain(graph); });
+    return known.holds(graph, Plain, [graph] { return findPlain(graph); });
 }
 
 bool isOpaque(const osgUtil::StateGraph* graph) {
     const KnownStates scope;
-    return known.holds(graph, 2u, [graph] { return findOpaque(graph); });
+    return known.holds(graph, Opaque, [graph] { return findOpaque(graph); });
 }
 
 bool isFilled(const osgUtil::StateGraph* graph) {
     const KnownStates scope;
-    return known.holds(graph, 4u, [graph] { return findFilled(graph); });
+    return known.holds(graph, Filled, [graph] { return findFilled(graph); });
 }
 
 bool isShaded(const osgUtil::StateGraph* graph) {

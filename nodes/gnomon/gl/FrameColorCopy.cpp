@@ -42,15 +42,7 @@ void FrameColorCopy::draw(osg::State& state) {
     set->setTextureAttributeAndModes(0, &of(state.getContextID()));
     set->setTextureAttribute(0, new osg::TexEnv(osg::TexEnv::REPLACE));
     state.apply(set);
-    state.applyProjectionMatrix(nullptr);
-    state.applyModelViewMatrix(nullptr);
-    glBegin(GL_TRIANGLE_STRIP);
-    for (const int y : {0, 1})
-        for (const int x : {0, 1}) {
-            glTexCoord2i(x, y);
-            glVertex2i(2 * x - 1, 2 * y - 1);
-        }
-    glEnd();
+    drawTexturedQuad(state, {0.0, 0.0}, {1.0, 1.0});
     state.apply();
 }
 

@@ -131,6 +131,18 @@ void drawQuad(osg::State& state, double atCenter, double slopeX, double slopeY) 
     glEnd();
 }
 
+void drawTexturedQuad(osg::State& state, const glm::dvec2& low, const glm::dvec2& high, double depth) {
+    state.applyProjectionMatrix(nullptr);
+    state.applyModelViewMatrix(nullptr);
+    glBegin(GL_TRIANGLE_STRIP);
+    for (const int y : {0, 1})
+        for (const int x : {0, 1}) {
+            glTexCoord2d(x ? high.x : low.x, y ? high.y : low.y);
+            glVertex3d(2 * x - 1, 2 * y - 1, depth);
+        }
+    glEnd();
+}
+
 void drawPolygon(osg::State& state, const std::vector<glm::dvec2>& corners, double depth) {
     if (corners.empty()) return drawQuad(state, depth);
     state.applyProjectionMatrix(nullptr);

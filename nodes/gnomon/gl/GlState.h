@@ -80,6 +80,9 @@ PixelRect wholeQuads(const PixelRect& pixels, const osg::Viewport& viewport);
 /// Rectangle over the whole viewport; depth in normalised device coordinates, z = atCenter + x·slopeX + y·slopeY.
 void drawQuad(osg::State& state, double atCenter = 0.0, double slopeX = 0.0, double slopeY = 0.0);
 
+/// The same with a texture on it. @param low, high  texture coordinates at its lower left and its upper right corner.
+void drawTexturedQuad(osg::State& state, const glm::dvec2& low, const glm::dvec2& high, double depth = 0.0);
+
 /// A convex polygon in normalised device coordinates; as drawQuad() if there are no corners.
 void drawPolygon(osg::State& state, const std::vector<glm::dvec2>& corners, double depth);
 

@@ -412,14 +412,13 @@ TexelDensity::TexelDensity(const LightFrame& frame, const glm::dmat4& clipFromSc
         return 2.0 / (pixels[axis] * glm::length(glm::dvec3(glm::row(clipFromScene, axis))));
     };
     _pixel *= std::min(pixel(0), pixel(1));
+    _pixelAUnit = glm::length(glm::dvec3(_pixel));
 }
 
 void TexelDensity::addBox(const PlacedBox& box, const HalfSpaces& halfSpaces) {
     const glm::dvec3 normal = flatNormal(box);
     const double least = side * (normal == glm::dvec3(0.0) ? stretchOfBodies : mostStretch);
-    if (_frame.isParallel &&
-        glm::dot(_pixel, glm::dvec4(box.middle, 1.0)) - box.radius * glm::length(glm::dvec3(_pixel)) >= least)
-        return;
+    if (_frame.isParallel && glm::dot(_pixel, glm::dvec4(box.middle, 1.0)) - box.radius * _pixelAUnit >= least) return;
     const BoxFrom from(box);
     if (_frame.isParallel && from.isPlain()) {
         if (std::max(glm::dot(_pixel, from.middle) - from.reach(_pixel), 0.0) >= least) return;
@@ -456,10 +455,11 @@ int texelsFor(double wanted, int most, int before) {
     return static_cast<int>(std::min(std::max(std::ceil(wanted / step) * step, double(fewest)), double(most)));
 }
 
-SeenRange::SeenRange(const glm::dmat4& clipFromScene) : _w(glm::row(clipFromScene, 3)) {}
+SeenRange::SeenRange(const glm::dmat4& clipFromScene)
+    : _w(glm::row(clipFromScene, 3)), _wAUnit(glm::length(glm::dvec3(_w))) {}
 
 void SeenRange::addBox(const PlacedBox& box, const HalfSpaces& halfSpaces) {
-    const double at = glm::dot(_w, glm::dvec4(box.middle, 1.0)), within = box.radius * glm::length(glm::dvec3(_w));
+    const double at = glm::dot(_w, glm::dvec4(box.middle, 1.0)), within = box.radius * _wAUnit;
     if (nearest <= at - within && at + within <= farthest) return;
     const BoxFrom from(box);
     const double w = glm::dot(_w, from.middle), reach = from.reach(_w);

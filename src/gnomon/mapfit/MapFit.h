@@ -183,7 +183,8 @@ private:
     double stretch(const glm::dvec3& normal, const glm::dvec4& place) const;
 
     LightFrame _frame;
-    glm::dvec4 _pixel; ///< row: side of a pixel at a place.
+    glm::dvec4 _pixel;  ///< row: side of a pixel at a place.
+    double _pixelAUnit; ///< how much that is larger a unit on, at most.
 };
 
 /// Texels on a map's side: hardly more than are of use, in steps, so that they seldom change.
@@ -206,7 +207,8 @@ public:
     double nearest = std::numeric_limits<double>::infinity(), farthest = -std::numeric_limits<double>::infinity();
 
 private:
-    glm::dvec4 _w; ///< row of the matrix.
+    glm::dvec4 _w;  ///< row of the matrix.
+    double _wAUnit; ///< how much that is larger a unit on, at most.
 };
 
 constexpr int mostCascades = 4;
