@@ -14,6 +14,7 @@
 
 namespace gnomon {
 
+class MarkEdges;
 class ScreenPass;
 
 /// Leaves of a render stage, to be asked for by address.
@@ -48,6 +49,12 @@ public:
     /// applied on top must be taken back by state.apply().
     /// @return why nothing could be drawn, as a cause for ShadowTechnique::report(); empty if all is well.
     virtual std::string draw(ScreenPass& pass) const = 0;
+
+    /// What finds where within their pixels its marks end, so that a share of the light arrives there if the frame has one sample
+    /// a pixel. Of Kind::Hard or Counts. Default null: nothing does.
+    virtual const MarkEdges* edges() const { return nullptr; }
+    /// Draws what its marks end at, by the program of edges().
+    virtual void drawEdges(ScreenPass&) const {}
 
     /// Draws over the finished picture how its marks come about.
     /// @param before  how many other marks of the view have done so.

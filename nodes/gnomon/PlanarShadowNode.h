@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/PlanarShadowOptions.h>
 #include <gnomon/ShadowTechnique.h>
 
 #include <osg/Vec4d>
@@ -29,10 +30,12 @@ struct PlanarPrograms;
 ///
 /// Cost
 /// - Each plane and light: one draw of the casters' triangles, stencil only.
+/// - Smooth edges: a copy of the depths, eight steps over the pixels that shadow can reach, and the triangles' outlines as lines.
 /// - With a receiver: one more draw of the receiver where it is shadowed.
 /// - Without a receiver: one more draw of every drawable that the shadow can touch.
 /// Needs
-/// - One stencil bit a light, and one more for several planes or techniques of one light.
+/// - One stencil bit a light, and one more for several planes or techniques of one light. Smooth edges: two more bits, alpha bits
+///   and framebuffer objects.
 /// Limits
 /// - Receivers are flat. Casters do not shadow one another. diagnose() names a surface in view that stays lit.
 /// - A level surface lies in the plane if it is nearer than 0.0001 of its drawable's radius: then it receives, and does not cast.
@@ -59,9 +62,14 @@ struct PlanarPrograms;
 ///       UniqueID 2
 ///       Receiver { Mask 0xffffffff Node TRUE { osg::Geode { UniqueID 7 } } }
 ///       Planes 1 { 0 0 1 -0.1 }
+///       Edges SMOOTH
 ///     }
 class GNOMON_EXPORT PlanarShadowNode : public ShadowTechnique {
 public:
+    using Edges = PlanarShadowOptions::Edges;                    ///< See PlanarShadowOptions::Edges.
+    static constexpr Edges HARD = PlanarShadowOptions::HARD;     ///< See PlanarShadowOptions::HARD.
+    static constexpr Edges SMOOTH = PlanarShadowOptions::SMOOTH; ///< See PlanarShadowOptions::SMOOTH.
+
     /// A node without planes.
     PlanarShadowNode();
     /// A node with one plane, as addPlane() takes it.
@@ -77,6 +85,15 @@ public:
     void setPlanes(const std::vector<osg::Vec4d>& planes);
     /// The planes, as given.
     const std::vector<osg::Vec4d>& getPlanes() const { return _planes; }
+
+    /// Sets all properties but the planes. Unknown edges become the default.
+    void setOptions(const PlanarShadowOptions& options) { _options.edges = options.edges == SMOOTH ? SMOOTH : HARD; }
+    /// See setOptions().
+    const PlanarShadowOptions& getOptions() const { return _options; }
+    /// See PlanarShadowOptions::edges.
+    void setEdges(Edges edges) { setOptions({edges}); }
+    /// See PlanarShadowOptions::edges.
+    Edges getEdges() const { return _options.edges; }
 
     /// Makes one mark for each plane that receives a shadow. See ShadowTechnique::prepare().
     std::vector<osg::ref_ptr<Mark>> prepare(const ViewFrame& view, const ShadowLight& light,
@@ -109,6 +126,7 @@ private:
                                   unsigned index, const glm::dvec4& groupPlane) const;
 
     std::vector<osg::Vec4d> _planes;
+    PlanarShadowOptions _options;
     osg::ref_ptr<PlanarPrograms> _programs;
     std::unique_ptr<PlanarCasterCache> _casters;
 };

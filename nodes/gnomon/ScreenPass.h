@@ -97,6 +97,10 @@ public:
     /// What is drawn next and what stands are mixed: (1 - kept) of the one, kept of the other, a channel each. Alpha is
     /// that of what is drawn.
     void beginMix(const osg::Vec3& kept);
+    /// Alpha alone becomes that of what is drawn next; ends with endMix().
+    void beginAlpha();
+    /// Colour and alpha become the larger, a channel each, of what stands and what is drawn next; ends with endMix().
+    void beginMost();
     /// Ends beginReplace(), beginMix() and the like: no colour is written.
     void endMix();
     /// Alpha alone becomes this, where something stands in the depth buffer: that of the background stays.

@@ -2,12 +2,14 @@
 #pragma once
 #include <gnomon/AutoShadowOptions.h>
 #include <gnomon/Export.h>
+#include <gnomon/PlanarShadowOptions.h>
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ShadowMapOptions.h>
 #include <gnomon/ShadowMapTechnique.h>
 #include <gnomon/ShadowTechnique.h>
 #include <gnomon/ShadowVolumeOptions.h>
 #include <gnomon/TerrainShadowOptions.h>
+#include <gnomon/TracedShadowOptions.h>
 
 #include <optional>
 #include <string>
@@ -30,7 +32,10 @@ struct ShadowSpec {
     std::optional<float> dark;                             ///< See ShadowCasterGroup::setDark(). Default: the group's.
     std::optional<bool> terminatorOffset; ///< See ShadowCasterGroup::setTerminatorOffset(). Default: the group's.
     ShadowMapOptions map;                 ///< Settings of map.
+    PlanarShadowOptions planar;           ///< Settings of planar.
+    TerrainShadowOptions hull;            ///< Settings of hull.
     ShadowVolumeOptions volume;           ///< Settings of volume.
+    TracedShadowOptions traced;           ///< Settings of traced.
     AutoShadowOptions budget;             ///< Settings of auto.
     /// Name of the nodes that receive, all of that name. Default, empty: everything for map, volume, traced and auto, else the node named "ground".
     std::string receiver;

@@ -10,7 +10,7 @@ namespace gnomon {
 
 class VolumeCache;
 
-/// Casts exact hard shadows onto everything visible, by stencil volumes.
+/// Casts exact shadows onto everything visible, by stencil volumes.
 ///
 /// Use it for casters of few edges, such as buildings, machines and furniture: its edges have no texels, and it is the
 /// fastest technique there. Use ShadowMapTechnique for dense meshes, foliage and penumbras.
@@ -22,14 +22,18 @@ class VolumeCache;
 /// - When a light moves: a pass over the casters' triangles and edges, and an upload of the outlines.
 /// - When a caster moves as a whole: the same for it alone. Small casters that are joined are searched again.
 /// - Volumes end below all that receives. Volumes out of sight are not drawn.
+/// - Smooth edges: a copy of the depths, eight steps over the pixels that shadow can reach, and the sides once more.
 /// - If the eye may be inside a volume, sees the back of an open sheet or looks through it, its triangles are drawn, too.
 /// Needs
 /// - Depth clamp, of OpenGL 3.2 or GL_ARB_depth_clamp.
-/// - One stencil bit a light, one more where a receiver is named, and one or more that count.
+/// - One stencil bit a light, one more where a receiver is named, and one or more that count. Smooth edges: two more bits, alpha bits
+///   and framebuffer objects.
 /// Limits
 /// - Dense meshes have thousands of edges one before the other: maps are faster there.
 /// - A single sheet seen from behind is lit as OpenGL lights it: it does not shadow itself.
 /// - Single pixels of a seam may stay lit where the dark side of an open sheet meets the ground, as at a cliff's foot.
+/// - Smooth edges: a shadow narrower than a pixel shows where it covers a pixel's middle. A pixel that several edges cut is as the
+///   nearest of them has it on each side.
 /// - Facets decide what faces the light. Smooth bodies: see ShadowCasterGroup::setTerminatorOffset().
 /// - Casters that are clear in part cast as if they were solid, and diagnose() says so.
 /// - Casters that draw themselves, or are made of patches, cast nothing. diagnose() says so.
@@ -55,6 +59,9 @@ class VolumeCache;
 ///     }
 class GNOMON_EXPORT ShadowVolumeTechnique : public ShadowTechnique {
 public:
+    using Edges = ShadowVolumeOptions::Edges;                     ///< See ShadowVolumeOptions::Edges.
+    static constexpr Edges HARD = ShadowVolumeOptions::HARD;      ///< See ShadowVolumeOptions::HARD.
+    static constexpr Edges SMOOTH = ShadowVolumeOptions::SMOOTH;  ///< See ShadowVolumeOptions::SMOOTH.
     using View = ShadowVolumeOptions::View;                       ///< See ShadowVolumeOptions::View.
     static constexpr View NOTHING = ShadowVolumeOptions::NOTHING; ///< See ShadowVolumeOptions::NOTHING.
     static constexpr View VOLUMES = ShadowVolumeOptions::VOLUMES; ///< See ShadowVolumeOptions::VOLUMES.
@@ -69,6 +76,13 @@ public:
     void setOptions(const ShadowVolumeOptions& options) { _options = options.usable(); }
     /// See setOptions().
     const ShadowVolumeOptions& getOptions() const { return _options; }
+    /// See ShadowVolumeOptions::edges.
+    void setEdges(Edges edges) {
+        _options.edges = edges;
+        setOptions(_options);
+    }
+    /// See ShadowVolumeOptions::edges.
+    Edges getEdges() const { return _options.edges; }
     /// See ShadowVolumeOptions::view.
     void setView(View view) {
         _options.view = view;

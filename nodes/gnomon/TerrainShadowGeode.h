@@ -10,6 +10,7 @@
 
 namespace gnomon {
 
+class MarkEdges;
 class TerrainShadowCache;
 
 /// Casts shadows of buildings and other upright objects onto terrain.
@@ -29,6 +30,7 @@ class TerrainShadowCache;
 /// Cost
 /// - Shadows are computed on all cores, only for tiles in view, and kept.
 /// - Each frame: up to 20 triangles a house, stencil only.
+/// - Smooth edges: a copy of the depths, eight steps over the pixels that shadow can reach, and the triangles once more.
 /// - Each frame: one more draw of the receiver where it is shadowed.
 /// - A caster that is neither convex nor an upright prism takes a solid for each flat face. Detailed models are
 ///   therefore slow.
@@ -36,7 +38,8 @@ class TerrainShadowCache;
 /// - A named receiver, see setReceiver(). It casts no shadow of this kind.
 /// - z up in the group's frame.
 /// - Qhull for HULL: see OptionalPart::Terrain.
-/// - Two stencil bits; three if shadows overlap. More bits save passes.
+/// - Two stencil bits; three if shadows overlap. More bits save passes. Smooth edges: one more bit, alpha bits and framebuffer
+///   objects.
 /// Limits
 /// - Walls and roofs receive nothing. diagnose() names one in view that stays lit.
 /// - The terrain casts nothing on itself. diagnose() says so if some of it is turned away from the light.
@@ -71,9 +74,12 @@ class TerrainShadowCache;
 ///     }
 class GNOMON_EXPORT TerrainShadowGeode : public ShadowTechnique {
 public:
-    using Method = TerrainShadowOptions::Method;               ///< See TerrainShadowOptions::Method.
-    static constexpr Method BOX = TerrainShadowOptions::BOX;   ///< See TerrainShadowOptions::BOX.
-    static constexpr Method HULL = TerrainShadowOptions::HULL; ///< See TerrainShadowOptions::HULL.
+    using Method = TerrainShadowOptions::Method;                  ///< See TerrainShadowOptions::Method.
+    static constexpr Method BOX = TerrainShadowOptions::BOX;      ///< See TerrainShadowOptions::BOX.
+    static constexpr Method HULL = TerrainShadowOptions::HULL;    ///< See TerrainShadowOptions::HULL.
+    using Edges = TerrainShadowOptions::Edges;                    ///< See TerrainShadowOptions::Edges.
+    static constexpr Edges HARD = TerrainShadowOptions::HARD;     ///< See TerrainShadowOptions::HARD.
+    static constexpr Edges SMOOTH = TerrainShadowOptions::SMOOTH; ///< See TerrainShadowOptions::SMOOTH.
 
     /// A technique with the default properties.
     TerrainShadowGeode();
@@ -81,8 +87,11 @@ public:
     TerrainShadowGeode(const TerrainShadowGeode& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
     META_Node(gnomon, TerrainShadowGeode)
 
-    /// Sets all options, as the setter below does.
-    void setOptions(const TerrainShadowOptions& options) { setMethod(options.method); }
+    /// Sets all options, as the setters below do.
+    void setOptions(const TerrainShadowOptions& options) {
+        setMethod(options.method);
+        setEdges(options.edges);
+    }
     /// See setOptions().
     const TerrainShadowOptions& getOptions() const { return _options; }
 
@@ -90,6 +99,11 @@ public:
     void setMethod(Method method);
     /// See TerrainShadowOptions::method.
     Method getMethod() const { return _options.method; }
+
+    /// See TerrainShadowOptions::edges. An unknown value becomes the default.
+    void setEdges(Edges edges) { _options.edges = edges == SMOOTH ? SMOOTH : HARD; }
+    /// See TerrainShadowOptions::edges.
+    Edges getEdges() const { return _options.edges; }
 
     /// Number of computations so far. Each computed tile adds one.
     unsigned builds() const;
@@ -124,6 +138,7 @@ protected:
 private:
     TerrainShadowOptions _options;
     osg::ref_ptr<osg::StateSet> _program;
+    osg::ref_ptr<MarkEdges> _edges;
     std::unique_ptr<TerrainShadowCache> _cache;
 };
 

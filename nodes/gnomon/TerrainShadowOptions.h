@@ -13,8 +13,19 @@ struct TerrainShadowOptions {
         HULL ///< The silhouettes of the caster's convex parts, followed along the light into the ground.
     };
 
+    /// What a pixel at the edge of a shadow gets.
+    enum Edges : int {
+        HARD, ///< All of the light or nothing, as its middle.
+        SMOOTH ///< The share that reaches it, where the frame has one sample a pixel. Else edges are as smooth as samples are.
+    };
+
     /// Method. Default HULL: it is exact for convex casters and prisms, on any terrain.
     Method method = HULL;
+    /// Edges of shadows. Default HARD.
+    Edges edges = HARD;
+
+    /// True if a pixel may get a part of the light.
+    bool fades() const { return edges == SMOOTH; }
 };
 
 } // namespace gnomon

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/ShadowTechnique.h>
+#include <gnomon/TracedShadowOptions.h>
 
 #include <cstddef>
 #include <memory>
@@ -12,16 +13,17 @@ class ResolvedDepth;
 class RaySceneCache;
 class TracedFrames;
 
-/// Casts hard shadows onto everything visible, by one ray a pixel towards the light.
+/// Casts exact shadows onto everything visible, by one ray a pixel towards the light, or 16 at edges.
 ///
 /// It is the exact technique: use it for reference pictures, and for static scenes of very many triangles. Use
-/// ShadowMapTechnique for moving casters, smooth edges or penumbras.
+/// ShadowMapTechnique for moving casters or penumbras.
 ///
 ///     group->addChild(new gnomon::TracedShadowTechnique);
 ///
 /// The depth buffer says where the surfaces are. Everything that writes depth receives, whatever shader draws it.
 ///
 /// Cost
+/// - Smooth edges: 16 rays and as many short ones for each pixel at an edge; none while nothing changes.
 /// - One ray for each pixel within the casters' and shadows' bounds, on all cores.
 /// - Pixels whose depth, light and casters are those of the frame before cost a comparison.
 /// - A read of the depth buffer.
@@ -30,9 +32,10 @@ class TracedFrames;
 /// - If stderr is a terminal, a build of more than a second shows its progress there.
 /// Needs
 /// - Embree: see OptionalPart::Traced. A depth buffer that can be read.
-/// - One stencil bit a light, and one more where a receiver is named.
+/// - One stencil bit a light, and one more where a receiver is named. Smooth edges: two more bits, alpha bits and framebuffer
+///   objects.
 /// Limits
-/// - One sample a pixel: edges are hard.
+/// - Edges are hard, by one sample a pixel, unless TracedShadowOptions::SMOOTH is set.
 /// - A single sheet seen from behind is lit as OpenGL lights it: it does not shadow itself.
 /// - Facets decide what faces the light. Smooth bodies: see ShadowCasterGroup::setTerminatorOffset().
 /// - Casters that are clear in part cast as if they were solid, and diagnose() says so.
@@ -51,6 +54,7 @@ class TracedFrames;
 ///
 ///     gnomon::TracedShadowTechnique {
 ///       UniqueID 2
+///       Edges SMOOTH
 ///     }
 class GNOMON_EXPORT TracedShadowTechnique : public ShadowTechnique {
 public:
@@ -59,6 +63,19 @@ public:
     /// Copies the properties.
     TracedShadowTechnique(const TracedShadowTechnique& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
     META_Node(gnomon, TracedShadowTechnique)
+
+    using Edges = TracedShadowOptions::Edges;                    ///< See TracedShadowOptions::Edges.
+    static constexpr Edges HARD = TracedShadowOptions::HARD;     ///< See TracedShadowOptions::HARD.
+    static constexpr Edges SMOOTH = TracedShadowOptions::SMOOTH; ///< See TracedShadowOptions::SMOOTH.
+
+    /// Sets all properties at once. Unknown edges become the default.
+    void setOptions(const TracedShadowOptions& options) { _options.edges = options.edges == SMOOTH ? SMOOTH : HARD; }
+    /// See setOptions().
+    const TracedShadowOptions& getOptions() const { return _options; }
+    /// See TracedShadowOptions::edges.
+    void setEdges(Edges edges) { setOptions({edges}); }
+    /// See TracedShadowOptions::edges.
+    Edges getEdges() const { return _options.edges; }
 
     /// Makes the mark that casts the rays of one light. See ShadowTechnique::prepare().
     std::vector<osg::ref_ptr<Mark>> prepare(const ViewFrame& view, const ShadowLight& light,
@@ -82,6 +99,7 @@ protected:
 private:
     friend std::size_t tracedPixels(const TracedShadowTechnique& technique); // rays so far; for tests
 
+    TracedShadowOptions _options;
     std::unique_ptr<RaySceneCache> _casters;
     std::shared_ptr<ResolvedDepth> _resolved; ///< a frame that is still drawn keeps it, and the next.
     std::shared_ptr<TracedFrames> _frames;

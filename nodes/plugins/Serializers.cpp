@@ -222,6 +222,22 @@ GNOMON_WRAPPER(ShadowCasterGroup, newGroup(), "osg::Object osg::Node osg::Group"
     }
 }
 
+/// Windows made later have alpha bits.
+template <typename Technique>
+struct AskForAlphaBits : osgDB::FinishedObjectReadCallback {
+    void objectRead(osgDB::InputStream&, osg::Object& object) override {
+        if (static_cast<const Technique&>(object).getOptions().fades()) askForAlphaBits();
+    }
+};
+
+/// Of techniques that are exact.
+template <typename Technique>
+void addEdges(osgDB::ObjectWrapper& wrapper) {
+    wrapper.addFinishedObjectReadCallback(new AskForAlphaBits<Technique>);
+    fields::addEnum(wrapper, "Edges", &Technique::getEdges, &Technique::setEdges,
+                    {{"HARD", Technique::HARD}, {"SMOOTH", Technique::SMOOTH}});
+}
+
 GNOMON_WRAPPER(ShadowTechnique, nullptr, "osg::Object osg::Node osg::Geode", "") {
     fields::addSelection<MyClass, &MyClass::getReceiver, &MyClass::setReceiver>(*wrapper, "Receiver");
 }
@@ -229,22 +245,16 @@ GNOMON_WRAPPER(ShadowTechnique, nullptr, "osg::Object osg::Node osg::Geode", "")
 GNOMON_WRAPPER(PlanarShadowNode, new gnomon::PlanarShadowNode, "osg::Object osg::Node osg::Geode",
                "gnomon::ShadowTechnique") {
     addList<MyClass, &MyClass::getPlanes, &MyClass::setPlanes>(*wrapper, "Planes");
+    addEdges<MyClass>(*wrapper);
     fields::addGone(*wrapper, "StencilCure", true, faultsAreGone);
     fields::addGone(*wrapper, "OffsetCure", true, faultsAreGone);
     fields::addGone(*wrapper, "ClipCure", true, faultsAreGone);
 }
 
-/// Windows made later have alpha bits.
-struct AskForAlphaBits : osgDB::FinishedObjectReadCallback {
-    void objectRead(osgDB::InputStream&, osg::Object& object) override {
-        if (static_cast<const ShadowMapTechnique&>(object).getOptions().fades()) askForAlphaBits();
-    }
-};
-
 GNOMON_WRAPPER(ShadowMapTechnique, new gnomon::ShadowMapTechnique, "osg::Object osg::Node osg::Geode",
                "gnomon::ShadowTechnique") {
     const osg::ref_ptr<const MyClass> fresh = new MyClass;
-    wrapper->addFinishedObjectReadCallback(new AskForAlphaBits);
+    wrapper->addFinishedObjectReadCallback(new AskForAlphaBits<MyClass>);
     ADD_INT_SERIALIZER(Size, fresh->getSize());
     fields::addEnum(*wrapper, "Filter", &MyClass::getFilter, &MyClass::setFilter,
                     {{"NEAREST", MyClass::NEAREST},
@@ -267,6 +277,7 @@ GNOMON_WRAPPER(ShadowMapTechnique, new gnomon::ShadowMapTechnique, "osg::Object 
 
 GNOMON_WRAPPER(ShadowVolumeTechnique, new gnomon::ShadowVolumeTechnique, "osg::Object osg::Node osg::Geode",
                "gnomon::ShadowTechnique") {
+    addEdges<MyClass>(*wrapper);
     fields::addEnum(*wrapper, "View", &MyClass::getView, &MyClass::setView,
                     {{"NOTHING", MyClass::NOTHING}, {"VOLUMES", MyClass::VOLUMES}});
 }
@@ -275,11 +286,13 @@ GNOMON_WRAPPER(TerrainShadowGeode, new gnomon::TerrainShadowGeode, "osg::Object 
                "gnomon::ShadowTechnique") {
     fields::addEnum(*wrapper, "Method", &MyClass::getMethod, &MyClass::setMethod,
                     {{"BOX", MyClass::BOX}, {"HULL", MyClass::HULL}, {"DRAPE", MyClass::Method(2)}}); // is refused
+    addEdges<MyClass>(*wrapper);
     wrapper->addFinishedObjectReadCallback(new fields::UnavailableWarning);
 }
 
 GNOMON_WRAPPER(TracedShadowTechnique, new gnomon::TracedShadowTechnique, "osg::Object osg::Node osg::Geode",
                "gnomon::ShadowTechnique") {
+    addEdges<MyClass>(*wrapper);
     wrapper->addFinishedObjectReadCallback(new fields::UnavailableWarning);
 }
 

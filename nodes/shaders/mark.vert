@@ -12,6 +12,10 @@ uniform vec4 light; // homogeneous; a vertex's w says how far it goes on away fr
 uniform float endless; // how far that is; below 0 to infinity
 #endif
 
+#ifdef CUTS
+out vec4 clip;
+#endif
+
 #ifdef OFFSET
 uniform vec4 light; // homogeneous
 #endif
@@ -38,6 +42,9 @@ void main() {
     gl_Position = clipFromVertex * vec4(gl_Vertex.xyz - 2.0 * gl_MultiTexCoord0.w * grazed * towards, 1.0);
 #else
     gl_Position = clipFromVertex * gl_Vertex;
+#endif
+#ifdef CUTS
+    clip = gl_Position;
 #endif
 #ifdef CUTOUT
     coordinates = gl_MultiTexCoord0.xyz;

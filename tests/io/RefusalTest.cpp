@@ -333,7 +333,7 @@ TEST_F(BadInput, ValuesThatCannotBeUsed) {
          "\"plane\" is not a shadow technique. Allowed: none, planar, box, hull, map, volume, traced, auto."},
         {"--shadow",
          {"planar:soft=1"},
-         "the technique planar has no key \"soft\". Allowed: composite, dark, terminator, receiver."},
+         "the technique planar has no key \"soft\". Allowed: edges, composite, dark, terminator, receiver."},
         {"--size",
          {"0x600", "800x0", "0", "1000000x1000000", "1000000x1", "-8x6", "8x", "x6", "8.5x6", "8x6x4", "nanxnan", "800",
           "99999999999999999999x1"},

@@ -56,6 +56,7 @@ osg::ref_ptr<PlanarShadowNode> planarOf(const Selection& receiver) {
     osg::ref_ptr<PlanarShadowNode> result = new PlanarShadowNode;
     result->setReceiver(receiver);
     result->setPlanes(delicate);
+    result->setEdges(PlanarShadowNode::SMOOTH);
     result->setName("floor's shadow");
     result->setNodeMask(0x10u);
     result->addDrawable(new osg::Geometry);
@@ -79,6 +80,7 @@ osg::ref_ptr<ShadowMapTechnique> mapOf() {
 osg::ref_ptr<TerrainShadowGeode> terrainOf() {
     osg::ref_ptr<TerrainShadowGeode> result = new TerrainShadowGeode;
     result->setMethod(TerrainShadowGeode::BOX);
+    result->setEdges(TerrainShadowGeode::SMOOTH);
     return result;
 }
 
@@ -148,10 +150,12 @@ osg::ref_ptr<osg::Group> everySetting() {
     group->addChild(mapOf());
     group->addChild(terrainOf());
     osg::ref_ptr<gnomon::ShadowVolumeTechnique> volume = new gnomon::ShadowVolumeTechnique;
+    volume->setEdges(gnomon::ShadowVolumeTechnique::SMOOTH);
     volume->setView(gnomon::ShadowVolumeTechnique::VOLUMES);
     group->addChild(volume);
     osg::ref_ptr<gnomon::TracedShadowTechnique> traced = new gnomon::TracedShadowTechnique;
     traced->setReceiver(ground);
+    traced->setEdges(gnomon::TracedShadowTechnique::SMOOTH);
     group->addChild(traced);
     osg::ref_ptr<gnomon::AutoShadowTechnique> choice = new gnomon::AutoShadowTechnique;
     choice->setError(1.0 / 3.0);

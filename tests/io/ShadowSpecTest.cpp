@@ -6,6 +6,7 @@
 #include <gnomon/ShadowSpec.h>
 #include <gnomon/ShadowVolumeTechnique.h>
 #include <gnomon/TerrainShadowGeode.h>
+#include <gnomon/TracedShadowTechnique.h>
 #include <gnomon/spec/SpecTable.h>
 #include <gtest/gtest.h>
 #include <osg/Geometry>
@@ -156,11 +157,18 @@ TEST(ShadowSpec, KeysAreReadAndSet) {
     EXPECT_EQ(made<ShadowVolumeTechnique>("volume:view=volumes")->getView(), ShadowVolumeTechnique::VOLUMES);
     EXPECT_EQ(made<TerrainShadowGeode>("box")->getMethod(), TerrainShadowGeode::BOX);
     EXPECT_EQ(made<TerrainShadowGeode>("hull")->getMethod(), TerrainShadowGeode::HULL);
+    EXPECT_EQ(made<TerrainShadowGeode>("hull:edges=smooth")->getEdges(), TerrainShadowGeode::SMOOTH);
+    EXPECT_EQ(made<ShadowVolumeTechnique>("volume:edges=smooth")->getEdges(), ShadowVolumeTechnique::SMOOTH);
+    EXPECT_EQ(made<ShadowVolumeTechnique>("volume")->getEdges(), ShadowVolumeTechnique::HARD);
+    EXPECT_EQ(made<PlanarShadowNode>("planar:edges=smooth")->getEdges(), PlanarShadowNode::SMOOTH);
+    EXPECT_EQ(made<gnomon::TracedShadowTechnique>("traced:edges=smooth")->getEdges(),
+              gnomon::TracedShadowTechnique::SMOOTH);
 }
 
 TEST(ShadowSpec, IsRefusedWithWhatIsAllowed) {
     const std::string names = "Allowed: none, planar, box, hull, map, volume, traced, auto.",
-                      keys = "Allowed: composite, dark, terminator, receiver.", cannot = " cannot be used. Allowed: ";
+                      keys = "Allowed: edges, composite, dark, terminator, receiver.",
+                      cannot = " cannot be used. Allowed: ";
     const std::pair<std::string, std::string> cases[] = {
         {"plane", "\"plane\" is not a shadow technique. " + names},
         {"", "\"\" is not a shadow technique. " + names},
@@ -182,6 +190,7 @@ TEST(ShadowSpec, IsRefusedWithWhatIsAllowed) {
         {"map:cascades=5", "cascades=5" + cannot + "auto, 1 to 4."},
         {"map:filter=soft", "filter=soft" + cannot + "nearest, bilinear, bicubic, fine."},
         {"map:view=x", "view=x" + cannot + "nothing, map, texels, cascades."},
+        {"volume:edges=soft", "edges=soft" + cannot + "hard, smooth."},
         {"map:edges=round", "edges=round" + cannot + "hard, smooth, soft."},
         {"map:sun-angle=21", "sun-angle=21" + cannot + "0 to 20, degrees."},
         {"map:lamp-size=-1", "lamp-size=-1" + cannot + "0 to 1e6, scene's unit."},

@@ -28,7 +28,7 @@ std::vector<Jobs> byLens(const Jobs& jobs) {
 PixelRect pixelsLookedAt(const std::vector<ShadowJob>& jobs, const osg::Viewport& viewport) {
     std::optional<ScreenRect> bounds;
     for (const ShadowJob& job : jobs)
-        if (!job.programMark() && job.mark->kind() != Mark::Kind::Counts)
+        if (!job.programMark() && (job.findsEdges || job.mark->kind() != Mark::Kind::Counts))
             bounds = bounds ? united(*bounds, job.mark->screenBounds) : job.mark->screenBounds;
     return bounds ? wholeQuads(pixelsWithin(*bounds, viewport), viewport) : PixelRect();
 }
@@ -174,6 +174,7 @@ void Compositor::relight(const Jobs& wanted) {
     const MarkedLights lights = _marks.lightsOf(wanted);
     const unsigned lightBits = bitsOf(lights);
     const ScreenRect bounds = boundsOf(jobsOf(lights));
+    _marks.clearLeftovers(lightBits);
     _marks.mark(lights);
     resetMarked(lightBits, bounds);
     std::vector<ReplayedLeaf> catchers;
@@ -239,6 +240,7 @@ void Compositor::blend(const Jobs& jobs, float dark) {
     MarkedLight all;
     all.hard = jobs;
     all.hardBit = bit;
+    _marks.clearLeftovers(bit);
     _marks.mark({all});
     for (const ShadowJob* job : jobs)
         writeWhereSeen(_draw, notOfLens(*job, _draw.leaves), {0, bit, _marks.scratchBit()}, bounds);

@@ -1,38 +1,33 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/compositor/FadingCompositor.h>
+#include <gnomon/compositor/FoundEdges.h>
 #include <gnomon/compositor/KeptByStage.h>
 #include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/compositor/ShadowJob.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace gnomon {
 
 namespace {
 
-Jobs fadingOf(const MarkedLights& lights) {
-    Jobs fading;
+std::vector<Jobs> fadingOf(const MarkedLights& lights) {
+    std::vector<Jobs> fading;
     for (const MarkedLight& light : lights)
-        if (light.fading) fading.push_back(light.fading);
+        if (!light.fading.empty()) fading.push_back(light.fading);
     return fading;
 }
 
-/// Multiplies alpha by the share that arrives, too.
-void markWeighed(const ShadowJob& job, unsigned bit, ScreenPass& screen) {
-    screen.multiplyAlpha();
-    screen.ask(ScreenPass::Want::Touched, bit);
-    job.report(job.mark->draw(screen));
-}
-
 StencilMarks::MarkFading markBy(const LightShares& shares) {
-    return [&shares](const ShadowJob& job, unsigned bit, ScreenPass& screen) { shares.mark(job, bit, screen); };
+    return [&shares](const ShadowJob& job, unsigned bit) { shares.mark(job, bit); };
 }
 
 /// @param lost  the light is.
 void weighOne(const MarkedLight& light, bool lost, const LightShares& shares, ScreenPass& screen) {
-    if (light.fading) {
+    if (!light.fading.empty()) {
         screen.stencilEqual(light.fadingBit, light.bits(), 0);
-        shares.multiplyAlpha(*light.fading, lost, screen);
+        shares.multiplyAlpha(*light.fading.front(), lost, screen);
     }
     if (lost)
         screen.stencilEqual(0, light.bits(), 0);
@@ -45,6 +40,19 @@ void weighOne(const MarkedLight& light, bool lost, const LightShares& shares, Sc
 
 FadingCompositor::FadingCompositor(const CompositorStage& draw) : _draw(draw), _marks(draw, true) {}
 
+/// Multiplies alpha by the share that arrives, too; that of a job which finds edges becomes the share.
+StencilMarks::MarkFading FadingCompositor::markWeighed() const {
+    return [this](const ShadowJob& job, unsigned bit) {
+        std::optional<FoundEdges> edges;
+        if (job.findsEdges) edges.emplace(_draw, job, bit);
+        _draw.pass(job.mark->screenBounds, [&](ScreenPass& screen) {
+            edges ? screen.beginAlpha() : screen.multiplyAlpha();
+            screen.ask(ScreenPass::Want::Touched, bit);
+            job.report(edges ? edges->draw(screen) : job.mark->draw(screen));
+        });
+    };
+}
+
 void FadingCompositor::relight(const Jobs& wanted) const {
     const MarkedLights lights = _marks.lightsOf(wanted);
     const Jobs jobs = jobsOf(lights);
@@ -52,11 +60,12 @@ void FadingCompositor::relight(const Jobs& wanted) const {
     const ScreenRect bounds = boundsOf(jobs);
     Leaves leaves = leavesToReplay(_draw, jobs, bounds);
     const Leaves aside = setAside(leaves, jobs);
-    const bool weighsAtOnce = lights.size() == 1 && lights.front().hard.empty() && aside.empty();
-    const LightShares shares(_draw, weighsAtOnce ? Jobs() : fadingOf(lights));
+    const bool weighsAtOnce = jobs.size() == 1 && jobs.front()->fades() && aside.empty();
+    _marks.clearLeftovers(bitsOf(lights));
+    const LightShares shares(_draw, weighsAtOnce ? std::vector<Jobs>() : fadingOf(lights), _marks.firstBit());
     const Weights weights{lights, shares, weighsAtOnce};
     if (weighsAtOnce) _draw.pass(bounds, [](ScreenPass& screen) { screen.setAlpha(1.0f); });
-    _marks.mark(lights, weighsAtOnce ? &markWeighed : markBy(shares));
+    _marks.mark(lights, weighsAtOnce ? markWeighed() : markBy(shares));
     if (!aside.empty()) darkenAside(aside, weights, jobs);
     mix(leaves, weights, jobs);
     _draw.pass(bounds, [](ScreenPass& screen) { screen.setAlpha(1.0f); });
@@ -172,12 +181,9 @@ void FadingCompositor::weigh(const Weights& weights, unsigned lost, const Screen
 }
 
 /// Multiplies alpha by the job's share.
-void FadingCompositor::addBlended(const ShadowJob& job, unsigned bit) const {
-    const Leaves others = notOfLens(job, _draw.leaves);
-    if (job.fades() && !job.receiverNamed && others.empty()) return _marks.add(job, bit, true, &markWeighed);
-    const LightShares shares(_draw, job.fades() ? Jobs{&job} : Jobs());
+void FadingCompositor::addBlended(const ShadowJob& job, const LightShares& shares, unsigned bit) const {
     _marks.add(job, bit, true, markBy(shares));
-    writeWhereSeen(_draw, others, {0, bit, _marks.scratchBit()}, job.mark->screenBounds);
+    writeWhereSeen(_draw, notOfLens(job, _draw.leaves), {0, bit, _marks.scratchBit()}, job.mark->screenBounds);
     _draw.pass(job.mark->screenBounds, [&](ScreenPass& screen) {
         screen.stencilAny(bit);
         if (job.fades())
@@ -191,16 +197,29 @@ void FadingCompositor::blend(const Jobs& jobs, float dark) const {
     const ScreenRect bounds = boundsOf(jobs);
     const unsigned bit = _marks.firstBit();
     _marks.clearLeftovers(bit);
+    const auto weighsAtOnce = [&](const ShadowJob* job) {
+        return job->fades() && !job->receiverNamed && (jobs.size() == 1 || !job->findsEdges) &&
+               notOfLens(*job, _draw.leaves).empty();
+    };
+    std::vector<Jobs> lookedUp;
+    for (const ShadowJob* job : jobs)
+        if (job->fades() && !weighsAtOnce(job)) lookedUp.push_back({job});
+    const LightShares shares(_draw, lookedUp, bit);
     _draw.pass(bounds, [](ScreenPass& screen) { screen.setAlpha(1.0f); });
     for (const ShadowJob* job : jobs) {
-        addBlended(*job, bit);
-        _draw.clear(bit, job->mark->screenBounds);
+        if (weighsAtOnce(job))
+            _marks.add(*job, bit, true, markWeighed());
+        else
+            addBlended(*job, shares, bit);
+        if (jobs.size() > 1) _draw.clear(bit, job->mark->screenBounds);
     }
     _draw.pass(bounds, [&](ScreenPass& screen) {
+        if (jobs.size() == 1) screen.stencilAny(bit); // elsewhere alpha is 1
         screen.fadeAlpha(dark);
         screen.multiplyColorByAlpha();
         screen.setAlpha(1.0f);
     });
+    if (jobs.size() == 1) _draw.clear(bit, bounds);
 }
 
 } // namespace gnomon

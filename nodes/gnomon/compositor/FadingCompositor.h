@@ -39,7 +39,9 @@ private:
     void replay(const Leaves& leaves, const MarkedLights& lights, unsigned lost, const ScreenRect& bounds,
                 const Jobs& jobs) const;
     ScreenRect boundsWithout(const MarkedLights& lights, unsigned lost) const;
-    void addBlended(const ShadowJob& job, unsigned bit) const;
+    /// Multiplies alpha by the share of each.
+    StencilMarks::MarkFading markWeighed() const;
+    void addBlended(const ShadowJob& job, const LightShares& shares, unsigned bit) const;
     void weigh(const Weights& weights, unsigned lost, const ScreenRect& bounds) const;
 
     const CompositorStage& _draw;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/compositor/FoundEdges.h>
 #include <gnomon/compositor/LightShares.h>
 #include <gnomon/gl/FrameDepths.h>
 #include <gnomon/gl/SavedFramebuffers.h>
@@ -6,6 +7,8 @@
 #include <osg/ContextData>
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 namespace gnomon {
 namespace {
@@ -15,6 +18,12 @@ void bindTexture(osg::State& state, GLuint texture) {
     state.setActiveTextureUnit(0);
     glBindTexture(GL_TEXTURE_2D, texture);
     state.haveAppliedTextureAttribute(0, osg::StateAttribute::TEXTURE);
+}
+
+/// To the framebuffer object that is bound.
+void attach(const osg::State& state, GLuint texture) {
+    state.get<osg::GLExtensions>()->glFramebufferTexture2D(GL_FRAMEBUFFER_EXT, GL_COLOR_ATTACHMENT0_EXT, GL_TEXTURE_2D,
+                                                           texture, 0);
 }
 
 } // namespace
@@ -45,40 +54,54 @@ void ShareTextures::discardAllGLObjects() {
     _width = _height = 0;
 }
 
-LightShares::LightShares(const CompositorStage& draw, const Jobs& fading)
-    : _draw(draw), _jobs(fading), _textures(*osg::get<ShareTextures>(draw.state.getContextID())) {
-    if (_jobs.empty()) return;
+LightShares::LightShares(const CompositorStage& draw, std::vector<Jobs> lights, unsigned bit)
+    : _draw(draw), _lights(std::move(lights)), _textures(*osg::get<ShareTextures>(draw.state.getContextID())) {
+    if (_lights.empty()) return;
     const PixelRect all = pixelsOf(*draw.stage.getViewport());
     _draw.pass(wholeScreen,
-               [&](ScreenPass&) { _textures.fit(draw.state, _jobs.size(), all.x + all.width, all.y + all.height); });
-    for (std::size_t i = 0; i < _jobs.size(); ++i) look(*_jobs[i], _textures[i]);
+               [&](ScreenPass&) { _textures.fit(draw.state, _lights.size(), all.x + all.width, all.y + all.height); });
+    for (std::size_t i = 0; i < _lights.size(); ++i) {
+        begin(_lights[i], _textures[i]);
+        for (const ShadowJob* job : _lights[i]) look(*job, bit, _textures[i]);
+    }
+}
+
+/// All of it arrives.
+void LightShares::begin(const Jobs& light, GLuint texture) const {
+    _draw.pass(boundsOf(light), [&](ScreenPass& screen) {
+        const ScratchFramebuffer framebuffer(*_draw.state.get<osg::GLExtensions>());
+        attach(_draw.state, texture);
+        screen.setAlpha(1.0f);
+    });
 }
 
 /// Depths are copied before the frame is no more what is drawn to.
-void LightShares::look(const ShadowJob& job, GLuint texture) const {
+void LightShares::look(const ShadowJob& job, unsigned bit, GLuint texture) const {
     const TrueDepths depths(_draw, job.mark->screenBounds);
+    std::optional<FoundEdges> edges;
+    if (job.findsEdges) edges.emplace(_draw, job, bit);
     _draw.pass(job.mark->screenBounds, [&](ScreenPass& screen) {
         const osg::Viewport& viewport = *_draw.stage.getViewport();
         const PixelRect pixels = pixelsInScissor(viewport);
         if (pixels.empty()) return;
         FrameDepths::hold(screen.state(), wholeQuads(pixels, viewport));
-        const auto& gl = *_draw.state.get<osg::GLExtensions>();
-        const ScratchFramebuffer framebuffer(gl);
-        gl.glFramebufferTexture2D(GL_FRAMEBUFFER_EXT, GL_COLOR_ATTACHMENT0_EXT, GL_TEXTURE_2D, texture, 0);
-        screen.setAlpha(1.0f);
+        const ScratchFramebuffer framebuffer(*_draw.state.get<osg::GLExtensions>());
+        attach(_draw.state, texture);
         screen.ask(ScreenPass::Want::Arriving);
-        job.report(job.mark->draw(screen));
+        job.report(edges ? edges->draw(screen) : job.mark->draw(screen));
     });
 }
 
-void LightShares::mark(const ShadowJob& job, unsigned bit, ScreenPass& screen) const {
-    screen.stencilEqual(bit, 0, bit);
-    glEnable(GL_ALPHA_TEST);
-    glAlphaFunc(GL_LESS, 1.0f);
-    screen.testDepth(GL_GREATER);
-    drawTexture(job, screen);
-    glDisable(GL_DEPTH_TEST);
-    glDisable(GL_ALPHA_TEST);
+void LightShares::mark(const ShadowJob& job, unsigned bit) const {
+    _draw.pass(job.mark->screenBounds, [&](ScreenPass& screen) {
+        screen.stencilEqual(bit, 0, bit);
+        glEnable(GL_ALPHA_TEST);
+        glAlphaFunc(GL_LESS, 1.0f);
+        screen.testDepth(GL_GREATER);
+        drawTexture(job, screen);
+        glDisable(GL_DEPTH_TEST);
+        glDisable(GL_ALPHA_TEST);
+    });
 }
 
 void LightShares::multiplyAlpha(const ShadowJob& job, bool blocked, ScreenPass& screen) const {
@@ -88,9 +111,12 @@ void LightShares::multiplyAlpha(const ShadowJob& job, bool blocked, ScreenPass& 
 
 /// At the far plane, texel on pixel.
 void LightShares::drawTexture(const ShadowJob& job, ScreenPass& screen) const {
-    const auto i = static_cast<std::size_t>(std::find(_jobs.begin(), _jobs.end(), &job) - _jobs.begin());
+    const auto hasJob = [&job](const Jobs& light) {
+        return std::find(light.begin(), light.end(), &job) != light.end();
+    };
+    const auto light = std::find_if(_lights.begin(), _lights.end(), hasJob);
     osg::State& state = screen.state();
-    bindTexture(state, _textures[i]);
+    bindTexture(state, _textures[static_cast<std::size_t>(light - _lights.begin())]);
     glEnable(GL_TEXTURE_2D);
     glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_REPLACE);
     const PixelRect all = pixelsOf(*_draw.stage.getViewport());

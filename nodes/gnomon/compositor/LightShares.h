@@ -38,28 +38,31 @@ private:
     GLint _format = 0;
 };
 
-/// What share of its light arrives by each of several jobs that fade, a pixel one, whatever its samples: looked up once, into
-/// textures of the kit's own, however often it is asked for. In them no depth stands, and all of the light arrives where
-/// nothing is.
+/// What share of a light arrives by all its jobs that fade, a pixel one, whatever its samples: looked up once, into textures of the
+/// kit's own, however often it is asked for. In them no depth stands, and all of the light arrives where nothing is.
 ///
 /// Needs   framebuffer objects.
 /// Threads one a context; contexts that share objects draw one after the other.
 class LightShares {
 public:
-    /// Draws the marks. @param draw  must outlive this, as must the jobs.
-    LightShares(const CompositorStage& draw, const Jobs& fading);
+    /// Draws the marks.
+    /// @param draw    must outlive this, as must the jobs.
+    /// @param lights  the jobs of each, one or more.
+    /// @param bit     see FoundEdges, as which alpha is used.
+    LightShares(const CompositorStage& draw, std::vector<Jobs> lights, unsigned bit);
 
-    /// Sets `bit` where not all of the light arrives and something stands.
-    void mark(const ShadowJob& job, unsigned bit, ScreenPass& screen) const;
-    /// Multiplies alpha by the share that arrives, or by the one that does not.
+    /// Sets `bit` where not all of the job's light arrives and something stands, within the job's bounds.
+    void mark(const ShadowJob& job, unsigned bit) const;
+    /// Multiplies alpha by the share of the job's light that arrives, or by the one that does not.
     void multiplyAlpha(const ShadowJob& job, bool blocked, ScreenPass& screen) const;
 
 private:
-    void look(const ShadowJob& job, GLuint texture) const;
+    void begin(const Jobs& light, GLuint texture) const;
+    void look(const ShadowJob& job, unsigned bit, GLuint texture) const;
     void drawTexture(const ShadowJob& job, ScreenPass& screen) const;
 
     const CompositorStage& _draw;
-    const Jobs _jobs;
+    const std::vector<Jobs> _lights;
     ShareTextures& _textures;
 };
 

@@ -84,7 +84,7 @@ TrueDepths::~TrueDepths() {
 
 Jobs MarkedLight::jobs() const {
     Jobs all = hard;
-    if (fading) all.push_back(fading);
+    all.insert(all.end(), fading.begin(), fading.end());
     return all;
 }
 
@@ -155,14 +155,7 @@ MarkedLights StencilMarks::lightsOf(const Jobs& wanted) const {
             lights.emplace_back().number = job->light;
             light = lights.end() - 1;
         }
-        const bool fades = _fades && job->fades();
-        if (fades && light->fading)
-            job->report("another technique has soft edges for the same light, so these edges are hard. Use one "
-                        "technique with soft edges for each light.");
-        if (fades && !light->fading)
-            light->fading = job;
-        else
-            light->hard.push_back(job);
+        (_fades && job->fades() ? light->fading : light->hard).push_back(job);
     }
     for (; lights.size() > mostRelitLights; lights.pop_back())
         reportAll(
@@ -177,7 +170,7 @@ MarkedLights StencilMarks::lightsOf(const Jobs& wanted) const {
 }
 
 bool StencilMarks::assignBits(MarkedLight& light, std::vector<unsigned>& unused) const {
-    const std::size_t needed = (light.hard.empty() ? 0u : 1u) + (light.fading ? 1u : 0u);
+    const std::size_t needed = (light.hard.empty() ? 0u : 1u) + (light.fading.empty() ? 0u : 1u);
     if (unused.size() < needed) {
         reportAll(light.jobs(),
                   nameOf(light) + " casts no shadow, because too few stencil bits are left. Leave more out of "
@@ -191,15 +184,14 @@ bool StencilMarks::assignBits(MarkedLight& light, std::vector<unsigned>& unused)
         return bit;
     };
     if (!light.hard.empty()) light.hardBit = take();
-    if (light.fading) light.fadingBit = take();
+    if (!light.fading.empty()) light.fadingBit = take();
     return true;
 }
 
 void StencilMarks::mark(const MarkedLights& lights, const MarkFading& fading) const {
-    clearLeftovers(bitsOf(lights));
     for (const MarkedLight& light : lights) {
         for (const ShadowJob* job : light.hard) add(*job, light.hardBit, job == light.hard.front());
-        if (light.fading) add(*light.fading, light.fadingBit, true, fading);
+        for (const ShadowJob* job : light.fading) add(*job, light.fadingBit, job == light.fading.front(), fading);
     }
 }
 
@@ -220,8 +212,8 @@ void StencilMarks::add(const ShadowJob& job, unsigned bit, bool fresh, const Mar
 
 void StencilMarks::addUngated(const ShadowJob& job, unsigned bit, const MarkFading& fading) const {
     const TrueDepths depths(_draw, job.mark->screenBounds);
+    if (fading && job.fades()) return fading(job, bit);
     _draw.pass(job.mark->screenBounds, [&](ScreenPass& screen) {
-        if (fading && job.fades()) return fading(job, bit, screen);
         screen.ask(ScreenPass::Want::Blocked, bit);
         job.report(job.mark->draw(screen));
     });

@@ -30,7 +30,7 @@ std::vector<LightUniform> lightUniformsOf(const Jobs& jobs);
 struct MarkedLight {
     int number = 0; ///< OpenGL's.
     Jobs hard;      ///< a pixel gets all of the light or nothing.
-    const ShadowJob* fading = nullptr;
+    Jobs fading;
     unsigned hardBit = 0, fadingBit = 0;
 
     unsigned bits() const { return hardBit | fadingBit; }
@@ -74,9 +74,9 @@ std::size_t stencilBitsFor(const std::vector<ShadowJob>& jobs);
 /// Shares of a light need no depths that are exact. So they are in textures of the kit's own, see LightShares.
 class StencilMarks {
 public:
-    /// Sets a bit where not all of the light of a job that fades arrives. Where there is none, the edge is hard: those that
-    /// less than half of the light reaches are marked.
-    using MarkFading = std::function<void(const ShadowJob&, unsigned bit, ScreenPass&)>;
+    /// Sets a bit where not all of the light of a job that fades arrives, in passes of its own. Where there is none, the edge is
+    /// hard: those that less than half of the light reaches are marked.
+    using MarkFading = std::function<void(const ShadowJob&, unsigned bit)>;
 
     /// @param draw   with one stencil bit at least; must outlive this.
     /// @param fades  jobs that fade have bits of their own; else their edges are hard.
@@ -91,7 +91,7 @@ public:
 
     /// Lights as far as there are bits for them, by their numbers; reports those that are left out.
     MarkedLights lightsOf(const Jobs& wanted) const;
-    /// Draws all marks into their lights' bits, which nobody has used.
+    /// Draws all marks into their lights' bits, which are 0.
     void mark(const MarkedLights& lights, const MarkFading& fading = {}) const;
     /// Adds a job's marks to those in `bit`.
     /// @param fresh  none are in it yet.

@@ -3,6 +3,7 @@
 #include <gnomon/gl/FrameDepths.h>
 #include <gnomon/gl/GlState.h>
 
+#include <osg/BlendEquation>
 #include <osg/GLExtensions>
 #include <osg/State>
 
@@ -179,8 +180,20 @@ void ScreenPass::beginMix(const osg::Vec3& kept) {
     gl.glBlendColor(kept.x(), kept.y(), kept.z(), 0.0f);
 }
 
+void ScreenPass::beginAlpha() {
+    glDisable(GL_BLEND);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_TRUE);
+}
+
+void ScreenPass::beginMost() {
+    addBlended(_state, GL_ONE, GL_ONE);
+    _state.get<osg::GLExtensions>()->glBlendEquation(osg::BlendEquation::RGBA_MAX);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+}
+
 void ScreenPass::endMix() {
     glDisable(GL_BLEND);
+    _state.get<osg::GLExtensions>()->glBlendEquation(GL_FUNC_ADD);
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
 }
 

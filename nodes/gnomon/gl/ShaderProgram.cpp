@@ -103,6 +103,10 @@ osg::ref_ptr<osg::StateSet> shaderProgram(const std::string& defines) {
     return programState("gnomon mark", defines + shaders::mark_vert, defines + shaders::mark_frag);
 }
 
+osg::ref_ptr<osg::StateSet> cutsProgram(const std::string& defines) {
+    return programState("gnomon cuts", "#define CUTS\n" + defines + shaders::mark_vert, defines + shaders::cuts_frag);
+}
+
 osg::ref_ptr<osg::StateSet> quadProgram(const char* name, const std::string& defines, const char* fragmentShader) {
     return programState(name, defines + shaders::quad_vert, defines + fragmentShader);
 }

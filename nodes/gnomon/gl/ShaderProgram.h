@@ -20,6 +20,8 @@ class ScreenPass;
 ///                 "#define EXTRUDE\n": vertices as ShadowVolumes has them, by the uniform light; coloured by wire.
 ///                 "#define CLIP_NEAR\n": it writes a clip distance to the uniform `nearest`, see mark.vert.
 osg::ref_ptr<osg::StateSet> shaderProgram(const std::string& defines = "");
+/// The same by cuts.frag, for MarkEdges. @param defines  of both shaders.
+osg::ref_ptr<osg::StateSet> cutsProgram(const std::string& defines);
 /// State with a program for ScreenPass::drawQuad(): a fragment shader for each pixel. GLSL 1.30.
 osg::ref_ptr<osg::StateSet> quadProgram(const char* name, const std::string& defines, const char* fragmentShader);
 

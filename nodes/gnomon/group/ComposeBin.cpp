@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/casters/DrawableTriangles.h>
 #include <gnomon/compositor/Compositor.h>
+#include <gnomon/compositor/FoundEdges.h>
 #include <gnomon/compositor/KeptByStage.h>
 #include <gnomon/compositor/PrepassBin.h>
 #include <gnomon/compositor/ResolvedState.h>
@@ -37,7 +38,7 @@ const bool registered = [] {
 std::size_t bitsOfLights(const std::vector<ShadowJob>& jobs) {
     if (std::none_of(jobs.begin(), jobs.end(), [](const auto& job) { return job.mark->kind() == Mark::Kind::Counts; }))
         return 8;
-    if (std::any_of(jobs.begin(), jobs.end(), [](const auto& job) { return job.fades(); })) return mostRelitLights + 2;
+    if (std::any_of(jobs.begin(), jobs.end(), [](const auto& job) { return job.fades(); })) return stencilBitsFor(jobs);
     std::set<int> lights;
     for (const ShadowJob& job : jobs) lights.insert(job.light);
     return std::min(lights.size(), mostRelitLights) + 1;
@@ -154,6 +155,10 @@ std::string ComposeBin::compose(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf
 std::string ComposeBin::compose(osg::RenderInfo& renderInfo, std::vector<DrawnLeaf> leaves,
                                 MaterialHistory& materials) {
     osg::State& state = *renderInfo.getState();
+    if (std::any_of(_jobs.begin(), _jobs.end(), [](const auto& job) { return job.mark->edges(); })) {
+        const bool finds = canFindEdges(state);
+        for (ShadowJob& job : _jobs) job.findsEdges = job.mark->edges() && finds;
+    }
     const TargetNeeds needs = this->needs(leaves);
     const CompositorTarget target(state, *getStage()->getViewport(), needs);
     CompositorOptions options = _options;

@@ -29,7 +29,8 @@ double depthOf(const glm::dvec2& offset, const osg::Viewport& viewport, const gl
 
 } // namespace
 
-PlanarPrograms::PlanarPrograms() : plain(shaderProgram()), clipping(shaderProgram("#define CLIP\n")) {}
+PlanarPrograms::PlanarPrograms()
+    : plain(shaderProgram()), clipping(shaderProgram("#define CLIP\n")), edges(new MarkEdges(MarkEdges::Of::Lines)) {}
 
 bool PlanarMark::canReach(const osgUtil::RenderLeaf& leaf) const {
     const osg::BoundingBox& box = leaf._drawable->getBoundingBox();
@@ -49,6 +50,10 @@ std::string PlanarMark::draw(ScreenPass& pass) const {
     const bool drawn = drawParts(pass.renderInfo());
     if (cutToPlane) cut(pass);
     return drawn ? "" : noProgram;
+}
+
+void PlanarMark::drawEdges(ScreenPass& pass) const {
+    for (const PlanarPart& part : casters->parts) drawPart(pass.renderInfo(), part);
 }
 
 /// @return false if some program is not to be had.

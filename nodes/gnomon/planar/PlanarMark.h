@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/compositor/ShadowJob.h>
+#include <gnomon/gl/MarkEdges.h>
 #include <gnomon/planar/PlanarCasters.h>
 
 #include <glm/mat4x4.hpp>
@@ -16,6 +17,7 @@ struct PlanarPrograms : public osg::Referenced {
     PlanarPrograms();
     osg::ref_ptr<osg::StateSet> plain;    ///< flattens only.
     osg::ref_ptr<osg::StateSet> clipping; ///< and writes clip distances, which costs a third more a vertex on llvmpipe.
+    const osg::ref_ptr<MarkEdges> edges;
 };
 
 /// Marks of one plane and light in one view: the flattened casters, cut where need be to the pixels whose depth is the
@@ -37,6 +39,7 @@ public:
     glm::dvec4 belowLight{0.0};
     bool reachesLight = false; ///< some caster is as high as the light.
     bool mirrored = false;     ///< the view turns the sense of triangles round.
+    bool isSmooth = false;     ///< edges are.
     bool cutToPlane = true;    ///< marks hold only where what one sees lies in the plane.
     /// The plane on the screen, normalised device coordinates: z = depth.x·x + depth.y·y + depth.z.
     glm::dvec3 depth{0.0};
@@ -51,6 +54,8 @@ public:
     /// True if the leaf's box comes to the plane but for a hundredth of its size.
     bool canReach(const osgUtil::RenderLeaf& leaf) const override;
     std::string draw(ScreenPass& pass) const override;
+    const MarkEdges* edges() const override { return isSmooth ? programs->edges.get() : nullptr; }
+    void drawEdges(ScreenPass& pass) const override;
 
 protected:
     ~PlanarMark() override = default;

@@ -184,6 +184,7 @@ PlanarShadowNode::PlanarShadowNode(const osg::Vec4d& plane) : PlanarShadowNode()
 PlanarShadowNode::PlanarShadowNode(const PlanarShadowNode& other, const osg::CopyOp& copyOp)
     : ShadowTechnique(other, copyOp),
       _planes(other._planes),
+      _options(other._options),
       _programs(new PlanarPrograms),
       _casters(new PlanarCasterCache) {}
 
@@ -247,6 +248,7 @@ osg::ref_ptr<Mark> PlanarShadowNode::prepareOne(const ViewFrame& view, const Sha
     const PlanarClipPlanes clip = planarClipPlanes(casters.plane, lightHere);
     mark->casters = &casters;
     mark->programs = _programs;
+    mark->isSmooth = _options.edges == SMOOTH;
     mark->clipFromScene = clipFromScene * *flatten;
     mark->abovePlane = clip.abovePlane;
     mark->belowLight = clip.belowLight;
@@ -328,12 +330,14 @@ void PlanarShadowNode::letGo() const { _casters->letGo(); }
 void PlanarShadowNode::resizeGLObjectBuffers(unsigned maxSize) {
     ShadowTechnique::resizeGLObjectBuffers(maxSize);
     for (const auto& program : {_programs->plain, _programs->clipping}) program->resizeGLObjectBuffers(maxSize);
+    _programs->edges->resizeGLObjectBuffers(maxSize);
     _casters->resizeGLObjectBuffers(maxSize);
 }
 
 void PlanarShadowNode::releaseGLObjects(osg::State* state) const {
     ShadowTechnique::releaseGLObjects(state);
     for (const auto& program : {_programs->plain, _programs->clipping}) program->releaseGLObjects(state);
+    _programs->edges->releaseGLObjects(state);
     _casters->releaseGLObjects(state);
 }
 

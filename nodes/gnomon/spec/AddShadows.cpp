@@ -53,18 +53,23 @@ std::vector<FlatPart> flatPartsOf(const Receivers& receivers) {
     return parts;
 }
 
-osg::ref_ptr<ShadowTechnique> makePlanar(const ShadowSpec&, const Receivers& receivers) {
+osg::ref_ptr<ShadowTechnique> makePlanar(const ShadowSpec& spec, const Receivers& receivers) {
     const std::vector<FlatPart> parts = flatPartsOf(receivers);
     if (parts.empty())
         refuse("the receiver \"" + receivers.front().node->getName() +
                "\" has no flat part, which planar needs. Name another one with receiver=NAME.");
     osg::ref_ptr<PlanarShadowNode> node = new PlanarShadowNode;
+    node->setOptions(spec.planar);
     for (std::size_t i = 0; i < std::min<std::size_t>(parts.size(), mostPlanes); ++i)
         if (parts[i].area >= smallestPart * parts.front().area) node->addPlane(parts[i].plane);
     return node;
 }
 
-osg::ref_ptr<ShadowTechnique> makeTraced(const ShadowSpec&, const Receivers&) { return new TracedShadowTechnique; }
+osg::ref_ptr<ShadowTechnique> makeTraced(const ShadowSpec& spec, const Receivers&) {
+    osg::ref_ptr<TracedShadowTechnique> node = new TracedShadowTechnique;
+    node->setOptions(spec.traced);
+    return node;
+}
 
 osg::ref_ptr<ShadowTechnique> makeAuto(const ShadowSpec& spec, const Receivers&) {
     osg::ref_ptr<AutoShadowTechnique> node = new AutoShadowTechnique;
@@ -84,23 +89,23 @@ osg::ref_ptr<ShadowTechnique> makeMap(const ShadowSpec& spec, const Receivers&) 
     return node;
 }
 
-template <TerrainShadowOptions::Method method>
-osg::ref_ptr<ShadowTechnique> makeTerrain(const ShadowSpec&, const Receivers&) {
+osg::ref_ptr<ShadowTechnique> makeBox(const ShadowSpec&, const Receivers&) {
     osg::ref_ptr<TerrainShadowGeode> node = new TerrainShadowGeode;
-    node->setMethod(method);
+    node->setMethod(TerrainShadowGeode::BOX);
+    return node;
+}
+
+osg::ref_ptr<ShadowTechnique> makeHull(const ShadowSpec& spec, const Receivers&) {
+    osg::ref_ptr<TerrainShadowGeode> node = new TerrainShadowGeode;
+    node->setOptions(spec.hull);
     return node;
 }
 
 /// Those that draw something, by their names in the table of techniques.
 const std::map<std::string, Maker>& makers() {
     static const std::map<std::string, Maker> all = {
-        {"planar", makePlanar},
-        {"box", makeTerrain<TerrainShadowOptions::BOX>},
-        {"hull", makeTerrain<TerrainShadowOptions::HULL>},
-        {"map", makeMap},
-        {"volume", makeVolume},
-        {"traced", makeTraced},
-        {"auto", makeAuto},
+        {"planar", makePlanar}, {"box", makeBox},       {"hull", makeHull}, {"map", makeMap},
+        {"volume", makeVolume}, {"traced", makeTraced}, {"auto", makeAuto},
     };
     return all;
 }

@@ -136,7 +136,8 @@ void light(ShadowCasterGroup& group, const SceneSpec& spec) {
 }
 
 bool mayFade(const ShadowSpec& spec) {
-    return spec.technique == "auto" || (spec.technique == "map" && spec.map.fades());
+    return spec.technique == "auto" || spec.map.fades() || spec.volume.fades() || spec.traced.fades() ||
+           spec.planar.fades() || spec.hull.fades(); // those of the other techniques have their defaults
 }
 
 } // namespace

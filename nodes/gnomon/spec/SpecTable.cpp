@@ -122,11 +122,22 @@ std::vector<SpecKey> mapKeys() {
     };
 }
 
+/// Of techniques that are exact.
+template <typename Options>
+SpecKey edgesKey(Options ShadowSpec::*options) {
+    using Edges = decltype(Options::edges);
+    const Option<Edges> edges = {Options().edges,
+                                 [options](ShadowSpec& spec, Edges value) { (spec.*options).edges = value; }};
+    return wordKey({"edges", "lit or unlit; or smooth over one pixel"}, edges,
+                   {{"hard", Options::HARD}, {"smooth", Options::SMOOTH}});
+}
+
 std::vector<SpecKey> volumeKeys() {
     const Option<ShadowVolumeOptions::View> view = {
         ShadowVolumeOptions().view,
         [](ShadowSpec& spec, ShadowVolumeOptions::View value) { spec.volume.view = value; }};
-    return {wordKey({"view", "debug view drawn over the picture"}, view,
+    return {edgesKey(&ShadowSpec::volume),
+            wordKey({"view", "debug view drawn over the picture"}, view,
                     {{"nothing", ShadowVolumeOptions::NOTHING}, {"volumes", ShadowVolumeOptions::VOLUMES}})};
 }
 
@@ -200,16 +211,23 @@ std::string SpecKey::allowed() const {
 const std::vector<SpecTechnique>& specTechniques() {
     static const std::vector<SpecTechnique> table = {
         {"none", "no shadow"},
-        {"planar", "flattens the casters onto the receiver's planes; exact on flat receivers", ground},
+        {"planar",
+         "flattens the casters onto the receiver's planes; exact on flat receivers",
+         ground,
+         {edgesKey(&ShadowSpec::planar)}},
         {"box", "bounding-box method of ARL-TN-156 on terrain, as published", ground},
         {"hull",
          "silhouettes of the casters' convex parts, followed into the terrain",
          ground,
-         {},
+         {edgesKey(&ShadowSpec::hull)},
          OptionalPart::Terrain},
         {"map", "shadow maps; on every visible surface", "", mapKeys()},
         {"volume", "stencil volumes; exact on every visible surface", "", volumeKeys()},
-        {"traced", "one ray for each pixel by Embree; exact on every visible surface", "", {}, OptionalPart::Traced},
+        {"traced",
+         "one ray for each pixel by Embree; exact on every visible surface",
+         "",
+         {edgesKey(&ShadowSpec::traced)},
+         OptionalPart::Traced},
         {"auto", "the cheapest of the others that keeps an error", "", autoKeys()},
     };
     return table;

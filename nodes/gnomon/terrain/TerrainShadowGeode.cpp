@@ -6,6 +6,7 @@
 #include <gnomon/TerrainShadowGeode.h>
 #include <gnomon/casters/Casters.h>
 #include <gnomon/compositor/ShadowJob.h>
+#include <gnomon/gl/MarkEdges.h>
 #include <gnomon/gl/ShaderProgram.h>
 #include <gnomon/group/SceneFrame.h>
 #include <gnomon/group/ShadowProbe.h>
@@ -34,12 +35,15 @@ public:
     };
     std::vector<Tile> tiles;
     osg::ref_ptr<const osg::StateSet> program; ///< see shaderProgram().
+    osg::ref_ptr<const MarkEdges> smooth;      ///< null: edges are hard.
     glm::dmat4 clipFromScene{1.0};             ///< see SceneFrame.
     osg::Matrixd sceneFromEye;
     bool testsBoxes = true; ///< boxTest() knows something.
 
     Kind kind() const override { return Kind::Counts; }
     std::string draw(ScreenPass& pass) const override;
+    const MarkEdges* edges() const override { return smooth.get(); }
+    void drawEdges(ScreenPass& pass) const override;
     BoxTest boxTest(const osg::Matrixd& eyeFromBox) const override;
 
 protected:
@@ -112,15 +116,25 @@ std::string TerrainMark::draw(ScreenPass& pass) const {
     return "";
 }
 
+void TerrainMark::drawEdges(ScreenPass& pass) const {
+    for (const Tile& tile : tiles) {
+        placeVolumes(pass.state(), clipFromScene, tile.light);
+        tile.shadows->geometry->draw(pass.renderInfo(), {{0, tile.shadows->solids.sides.back()}});
+    }
+}
+
 } // namespace
 
 TerrainShadowGeode::TerrainShadowGeode()
-    : _program(shaderProgram("#define EXTRUDE\n")), _cache(new TerrainShadowCache) {}
+    : _program(shaderProgram("#define EXTRUDE\n")),
+      _edges(new MarkEdges(MarkEdges::Of::Sides)),
+      _cache(new TerrainShadowCache) {}
 
 TerrainShadowGeode::TerrainShadowGeode(const TerrainShadowGeode& other, const osg::CopyOp& copyOp)
     : ShadowTechnique(other, copyOp),
       _options(other._options),
       _program(shaderProgram("#define EXTRUDE\n")),
+      _edges(new MarkEdges(MarkEdges::Of::Sides)),
       _cache(new TerrainShadowCache) {}
 
 TerrainShadowGeode::~TerrainShadowGeode() = default;
@@ -155,6 +169,7 @@ std::vector<osg::ref_ptr<Mark>> TerrainShadowGeode::prepare(const ViewFrame& vie
     const TileView seen(view, frame.origin);
     osg::ref_ptr<TerrainMark> mark = new TerrainMark;
     mark->program = _program;
+    if (getEdges() == SMOOTH) mark->smooth = _edges;
     mark->clipFromScene = seen.clipFromScene();
     mark->sceneFromEye = SceneFrame(frame.origin).sceneFromEye(view);
     mark->testsBoxes = view.options.skipsUntouched;
@@ -190,12 +205,14 @@ void TerrainShadowGeode::letGo() const { _cache->letGo(); }
 void TerrainShadowGeode::resizeGLObjectBuffers(unsigned maxSize) {
     ShadowTechnique::resizeGLObjectBuffers(maxSize);
     _program->resizeGLObjectBuffers(maxSize);
+    _edges->resizeGLObjectBuffers(maxSize);
     _cache->resizeGLObjectBuffers(maxSize);
 }
 
 void TerrainShadowGeode::releaseGLObjects(osg::State* state) const {
     ShadowTechnique::releaseGLObjects(state);
     _program->releaseGLObjects(state);
+    _edges->releaseGLObjects(state);
     _cache->releaseGLObjects(state);
 }
 

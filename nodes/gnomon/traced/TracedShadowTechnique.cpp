@@ -49,6 +49,12 @@ struct TracedFrame {
     glm::dmat4 clipFromScene{1.0};
     glm::dvec4 lightInScene{0.0};
     DepthPicture picture; ///< the depths of it.
+    bool smooth = false;  ///< shares are wanted, too.
+};
+
+/// Where the light does not reach, as depthBufferShadow() has it; and what share of it arrives, where that is wanted.
+struct TracedAnswer {
+    std::vector<std::uint8_t> bits, shares;
 };
 
 /// The answers of a technique's last frames, so that rays are cast only where depth, light or casters have changed.
@@ -59,9 +65,9 @@ struct TracedFrame {
 /// - Any number.
 class TracedFrames {
 public:
-    /// Bits of a frame, as depthBufferShadow() has them. Casts rays only where they may differ from the last ones of the same
-    /// view and light.
-    std::vector<std::uint8_t> bitsOf(TracedFrame frame);
+    /// Casts rays only where they may differ from the last ones of the same view and light; for shares, wherever they are not all of
+    /// the light or nothing, once any may.
+    TracedAnswer answerTo(TracedFrame frame);
     /// How many pixels rays were cast for so far.
     std::size_t traced() const { return _traced; }
 
@@ -76,7 +82,7 @@ private:
         TracedFrame frame;                    ///< without scene and pieces, which may be large.
         std::weak_ptr<const RayScene> scene;  ///< of it.
         std::shared_ptr<const Pieces> pieces; ///< of it; null if they are not known.
-        std::vector<std::uint8_t> bits;
+        TracedAnswer answer;
     };
     /// What is known of a light in a view. Whoever casts rays for it holds it, so that it may be let go meanwhile.
     struct Last {
@@ -106,6 +112,7 @@ public:
     glm::dvec2 pushedBack{0.0};              ///< see ViewFrame.
 
     TracedMark() { depthSteps = 0.0; } ///< Rays find the surface within what a depth may mean.
+    Kind kind() const override { return frame.smooth ? Kind::Fades : Kind::Hard; }
     std::string draw(ScreenPass& pass) const override;
 
 protected:
@@ -158,12 +165,27 @@ bool readDepth(osg::State& state, ResolvedDepth& resolved, DepthPicture& part) {
     return true;
 }
 
-/// A fragment where a bit is set. The empty bitmap moves the raster position, which no place off the screen may set.
-void drawBits(osg::State& state, const DepthPicture& part, const std::vector<std::uint8_t>& bits) {
+/// The empty bitmap moves the raster position, which no place off the screen may set.
+void beginPixels(osg::State& state, const DepthPicture& part) {
     state.applyProjectionMatrix(nullptr);
     state.applyModelViewMatrix(nullptr);
     glRasterPos2d(-1.0, -1.0);
     glBitmap(0, 0, 0.0f, 0.0f, static_cast<GLfloat>(part.x), static_cast<GLfloat>(part.y), nullptr);
+}
+
+/// A fragment where not all of the light arrives, with the share that does in alpha; or, where marks are to be hard, where less than
+/// half of it does.
+void drawShares(ScreenPass& pass, const DepthPicture& part, const std::vector<std::uint8_t>& shares) {
+    beginPixels(pass.state(), part);
+    glEnable(GL_ALPHA_TEST);
+    glAlphaFunc(GL_LESS, pass.wanted() == ScreenPass::Want::Blocked ? 0.5f : 1.0f);
+    glDrawPixels(part.width, part.height, GL_ALPHA, GL_UNSIGNED_BYTE, shares.data());
+    glDisable(GL_ALPHA_TEST);
+}
+
+/// A fragment where a bit is set.
+void drawBits(osg::State& state, const DepthPicture& part, const std::vector<std::uint8_t>& bits) {
+    beginPixels(state, part);
     glBitmap(part.width, part.height, 0.0f, 0.0f, 0.0f, 0.0f, bits.data());
 }
 
@@ -219,7 +241,7 @@ std::optional<std::vector<RayBox>> TracedFrames::changesBetween(const Known& bef
     return boxes;
 }
 
-std::vector<std::uint8_t> TracedFrames::bitsOf(TracedFrame frame) {
+TracedAnswer TracedFrames::answerTo(TracedFrame frame) {
     std::shared_ptr<Last> last;
     std::shared_ptr<const Known> before;
     {
@@ -237,15 +259,21 @@ std::vector<std::uint8_t> TracedFrames::bitsOf(TracedFrame frame) {
         before->frame.lightInScene == frame.lightInScene && isSamePart(before->frame.picture, frame.picture))
         changed = sameScene ? std::vector<RayBox>() : changesBetween(*before, pieces.get(), frame.origin);
     std::optional<FormerShadow> former;
-    if (changed) former.emplace(FormerShadow{before->frame.picture, before->bits, std::move(*changed)});
+    if (changed) former.emplace(FormerShadow{before->frame.picture, before->answer.bits, std::move(*changed)});
     const std::shared_ptr<const RayScene> scene = std::move(frame.scene);
     TracedBits found =
         depthBufferShadow(*scene, frame.picture, frame.clipFromScene, frame.lightInScene, former ? &*former : nullptr);
     _traced += found.traced;
-    auto now = std::make_shared<const Known>(Known{std::move(frame), scene, pieces, found.bits});
+    TracedAnswer answer{std::move(found.bits), {}};
+    const bool isAsBefore = former && former->changed.empty() && found.traced == 0;
+    if (frame.smooth && isAsBefore && !before->answer.shares.empty())
+        answer.shares = before->answer.shares;
+    else if (frame.smooth)
+        answer.shares = depthBufferShares(*scene, frame.picture, frame.clipFromScene, frame.lightInScene, answer.bits);
+    auto now = std::make_shared<const Known>(Known{std::move(frame), scene, pieces, answer});
     Lock lock(_mutex);
     last->known.swap(now);
-    return std::move(found.bits);
+    return answer;
 }
 
 std::string TracedMark::draw(ScreenPass& pass) const {
@@ -267,8 +295,11 @@ std::string TracedMark::draw(ScreenPass& pass) const {
     depths.swap(part.depths);
     seen.picture = part;
     seen.picture.depths.swap(depths);
-    const std::vector<std::uint8_t> bits = frames->bitsOf(std::move(seen));
-    (glInteger(GL_SAMPLES) > 0 ? drawRuns : drawBits)(state, part, bits);
+    const TracedAnswer answer = frames->answerTo(std::move(seen));
+    if (frame.smooth)
+        drawShares(pass, part, answer.shares);
+    else
+        (glInteger(GL_SAMPLES) > 0 ? drawRuns : drawBits)(state, part, answer.bits);
     return "";
 }
 
@@ -277,6 +308,7 @@ TracedShadowTechnique::TracedShadowTechnique()
 
 TracedShadowTechnique::TracedShadowTechnique(const TracedShadowTechnique& other, const osg::CopyOp& copyOp)
     : ShadowTechnique(other, copyOp),
+      _options(other._options),
       _casters(new RaySceneCache),
       _resolved(new ResolvedDepth),
       _frames(new TracedFrames) {}
@@ -299,6 +331,7 @@ std::vector<osg::ref_ptr<Mark>> TracedShadowTechnique::prepare(const ViewFrame& 
     mark->frame.frame = view.frameNumber;
     mark->frame.origin = layers.origin;
     mark->frame.pieces = &casters;
+    mark->frame.smooth = _options.edges == SMOOTH;
     mark->frames = _frames;
     mark->resolved = _resolved;
     mark->rounding = layers.largestRounding;

@@ -19,10 +19,13 @@ class VolumeMark : public Mark {
 public:
     std::shared_ptr<const KeptVolumes> volumes; ///< never null.
     osg::ref_ptr<const osg::StateSet> program;
-    glm::dvec2 pushedBack{0.0}; ///< see ViewFrame.
+    osg::ref_ptr<const MarkEdges> smooth; ///< null: edges are hard.
+    glm::dvec2 pushedBack{0.0};           ///< see ViewFrame.
 
     Kind kind() const override { return Kind::Counts; }
     std::string draw(ScreenPass& pass) const override;
+    const MarkEdges* edges() const override { return smooth.get(); }
+    void drawEdges(ScreenPass& pass) const override;
     void drawDebugView(ScreenPass& pass, int before) const override;
 
 protected:
@@ -117,12 +120,14 @@ void VolumeMark::uncountBacks(ScreenPass& pass, unsigned counters, const MeshInV
     glEnable(depthClamp);
 }
 
+/// One bit tells odd from even.
+unsigned capacityOf(const ScreenPass& pass) { return pass.counters() & 1u ? pass.counters() : 1u; }
+
 std::string VolumeMark::draw(ScreenPass& pass) const {
     osg::State& state = pass.state();
     const unsigned bit = pass.bit();
     const unsigned counters = pass.counters() ? pass.counters() : bit;
-    const unsigned capacity = counters & 1u ? counters : 1u; // one bit tells odd from even
-    const std::shared_ptr<const KeptVolumes::Counted> counted = volumes->countedBy(capacity);
+    const std::shared_ptr<const KeptVolumes::Counted> counted = volumes->countedBy(capacityOf(pass));
     if (!pass.counters() && counted->rounds.size() > 1) return noCounter;
     for (const VolumeRound& round : counted->rounds) {
         if (round.holding) { // what all pixels begin with
@@ -133,7 +138,8 @@ std::string VolumeMark::draw(ScreenPass& pass) const {
         state.apply(program.get());
         if (!hasProgram(state)) return noProgram;
         for (const auto& [mesh, share] : round.shares) count(pass, counters, volumes->seen().meshes[mesh], share);
-        for (const auto& [mesh, share] : round.shares) uncountBacks(pass, counters, volumes->seen().meshes[mesh], share);
+        for (const auto& [mesh, share] : round.shares)
+            uncountBacks(pass, counters, volumes->seen().meshes[mesh], share);
         glFrontFace(GL_CCW);
         state.apply();
         if (pass.counters())
@@ -142,6 +148,18 @@ std::string VolumeMark::draw(ScreenPass& pass) const {
             unmarkFar(pass, bit);
     }
     return counted->overflow ? overflow : "";
+}
+
+void VolumeMark::drawEdges(ScreenPass& pass) const {
+    for (const VolumeRound& round : volumes->countedBy(capacityOf(pass))->rounds)
+        for (const auto& [mesh, share] : round.shares) {
+            const MeshInView& seen = volumes->seen().meshes[mesh];
+            place(pass.state(), seen);
+            for (const VolumeRound::Sides* sides : {&share.entered, &share.left}) {
+                seen.volumes->sides().draw(pass.renderInfo(), sides->usual);
+                seen.volumes->sides().draw(pass.renderInfo(), sides->grazed);
+            }
+        }
 }
 
 void VolumeMark::drawDebugView(ScreenPass& pass, int) const {
@@ -173,7 +191,10 @@ constexpr const char* coarse = "casters are so far from one another, or so far f
 } // namespace
 
 ShadowVolumeOptions ShadowVolumeOptions::usable() const {
-    return {view == VOLUMES ? VOLUMES : ShadowVolumeOptions().view};
+    ShadowVolumeOptions usable;
+    if (edges == SMOOTH) usable.edges = SMOOTH;
+    if (view == VOLUMES) usable.view = VOLUMES;
+    return usable;
 }
 
 ShadowVolumeTechnique::ShadowVolumeTechnique() : _cache(std::make_unique<VolumeCache>()) {}
@@ -201,6 +222,7 @@ std::vector<osg::ref_ptr<Mark>> ShadowVolumeTechnique::prepare(const ViewFrame& 
     mark->volumes = volumes;
     mark->screenBounds = volumes->seen().bounds;
     mark->program = _cache->program;
+    if (_options.edges == SMOOTH) mark->smooth = _cache->edges;
     mark->pushedBack = {view.pushedBack.x(), view.pushedBack.y()};
     mark->hasDebugView = _options.view == VOLUMES;
     return {mark};

@@ -56,7 +56,7 @@ double nearOf(const osg::Matrixd& projection) {
 
 } // namespace
 
-VolumeCache::VolumeCache() : program(shaderProgram("#define EXTRUDE\n")) {}
+VolumeCache::VolumeCache() : program(shaderProgram("#define EXTRUDE\n")), edges(new MarkEdges(MarkEdges::Of::Sides)) {}
 
 std::shared_ptr<const KeptVolumes> VolumeCache::see(const CasterLayers& casters, const ViewFrame& view, int lightNumber,
                                                     const glm::dvec4& light, const SceneFrame& scene) {
@@ -121,6 +121,7 @@ unsigned VolumeCache::builds() const {
 void VolumeCache::resizeGLObjectBuffers(unsigned maxSize) {
     Lock lock(_mutex);
     program->resizeGLObjectBuffers(maxSize);
+    edges->resizeGLObjectBuffers(maxSize);
     for (const auto& entry : _found)
         for (const auto& volumes : entry->value.volumes) volumes->resizeGLObjectBuffers(maxSize);
 }
@@ -128,6 +129,7 @@ void VolumeCache::resizeGLObjectBuffers(unsigned maxSize) {
 void VolumeCache::release(osg::State* state) const {
     Lock lock(_mutex);
     program->releaseGLObjects(state);
+    edges->releaseGLObjects(state);
     for (const auto& entry : _found)
         for (const auto& volumes : entry->value.volumes) volumes->releaseGLObjects(state);
 }

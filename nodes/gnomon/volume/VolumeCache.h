@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/ShadowLight.h>
+#include <gnomon/gl/MarkEdges.h>
 #include <gnomon/group/PerView.h>
 #include <gnomon/volume/LightVolumes.h>
 
@@ -32,6 +33,7 @@ public:
     unsigned builds() const;
 
     const osg::ref_ptr<osg::StateSet> program; ///< see shaderProgram().
+    const osg::ref_ptr<MarkEdges> edges;
 
     void resizeGLObjectBuffers(unsigned maxSize);
     void release(osg::State* state) const;

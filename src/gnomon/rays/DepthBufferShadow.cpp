@@ -51,6 +51,9 @@ public:
 
     /// @param x,y  counted from the part's corner.
     bool blocked(int x, int y) const;
+    /// What share of the light reaches the pixel, where one beside it is blocked otherwise; else 0 or 1.
+    template <typename IsBlocked>
+    double share(int x, int y, IsBlocked isBlocked) const;
     /// @param row  of bits that are 0.
     /// @return pixels that rays were cast for.
     std::size_t traceRow(int y, std::uint8_t* row, const FormerShadow* former, const std::uint8_t* known) const;
@@ -62,10 +65,20 @@ private:
     }
     Slope slope(int x, int y, int dx, int dy) const;
     /// Homogeneous, scene: a point of a pixel's ray. In these coordinates all of the ray is linear in depth.
-    glm::dvec4 unproject(int x, int y, double depth) const;
+    glm::dvec4 unproject(const glm::dvec2& at, double depth) const;
     DepthError error(int x, int y, double perDistance) const;
-    Span span(int x, int y) const;
+    Span span(int x, int y) const { return span(x, y, glm::dvec2(0.0), depth(x, y), 0.0); }
+    /// @param offset  from where the depth was taken, pixels. @param seen  depth there. @param bend  how far off that may be.
+    Span span(int x, int y, const glm::dvec2& offset, double seen, double bend) const;
+    bool blocked(const Span& span, const glm::dvec3& start) const {
+        return _scene.blocked(toLight(start)) && !isLitFromBehind(span);
+    }
+    /// The caster's surface between the two ends.
+    RayHit surfaceIn(const Span& span) const { return _scene.closest({span.nearest, span.along(), 1.0}); }
     glm::dvec3 start(const Span& span) const;
+    glm::dvec3 startOn(const Span& span, const RayHit& surface) const;
+    /// How a surface lies, as it is seen: 1 towards the light, -1 away from it; 0 if it is no caster's.
+    int facing(const Span& span, const RayHit& surface) const;
     Ray toLight(const glm::dvec3& from) const;
     bool isLitFromBehind(const Span& span) const;
 
@@ -88,9 +101,9 @@ Slope DepthTracer::slope(int x, int y, int dx, int dy) const {
     return {std::min(slope.least, slope.most), slope.most};
 }
 
-glm::dvec4 DepthTracer::unproject(int x, int y, double depth) const {
-    return _sceneFromClip * glm::dvec4(2.0 * (_picture.x + x + _picture.place.x) / _picture.viewportWidth - 1.0,
-                                       2.0 * (_picture.y + y + _picture.place.y) / _picture.viewportHeight - 1.0,
+glm::dvec4 DepthTracer::unproject(const glm::dvec2& at, double depth) const {
+    return _sceneFromClip * glm::dvec4(2.0 * (_picture.x + at.x + _picture.place.x) / _picture.viewportWidth - 1.0,
+                                       2.0 * (_picture.y + at.y + _picture.place.y) / _picture.viewportHeight - 1.0,
                                        2.0 * depth - 1.0, 1.0);
 }
 
@@ -105,14 +118,13 @@ DepthError DepthTracer::error(int x, int y, double perDistance) const {
     return {steps + places * least, steps + places * most + drawn};
 }
 
-Span DepthTracer::span(int x, int y) const {
-    const double seen = depth(x, y);
-    const glm::dvec4 surface = unproject(x, y, seen), deeper = 2.0 * _sceneFromClip[2];
+Span DepthTracer::span(int x, int y, const glm::dvec2& offset, double seen, double bend) const {
+    const glm::dvec4 surface = unproject(glm::dvec2(x, y) + offset, seen), deeper = 2.0 * _sceneFromClip[2];
     const DepthError off = error(x, y, surface.w);
     const auto nearerBy = [&](double by) { return cartesian(surface - std::min(by, seen) * deeper); };
     const glm::dvec3 pixel = cartesian(surface + _across) - cartesian(surface);
-    return {nearerBy(off.most), nearerBy(off.least),
-            cartesian(surface + std::min(off.most, 1.0 - seen) * deeper), // beyond 1: behind the eye
+    return {nearerBy(off.most + bend), nearerBy(off.least),
+            cartesian(surface + std::min(off.most + bend, 1.0 - seen) * deeper), // beyond 1: behind the eye
             glm::dot(pixel, pixel)};
 }
 
@@ -122,11 +134,22 @@ glm::dvec3 DepthTracer::start(const Span& span) const {
     const glm::dvec3 along = span.along();
     if (!(glm::dot(along, along) > coarse * coarse * span.pixel))
         return span.nearest - _scene.margin(span.nearest) * glm::normalize(along);
-    const RayHit hit = _scene.closest({span.nearest, along, 1.0});
-    if (hit)
-        return _scene.lifted(span.nearest + hit.distance * along,
-                             glm::dot(hit.normal, along) < 0.0 ? hit.normal : -hit.normal);
+    return startOn(span, surfaceIn(span));
+}
+
+glm::dvec3 DepthTracer::startOn(const Span& span, const RayHit& surface) const {
+    const glm::dvec3 along = span.along();
+    if (surface)
+        return _scene.lifted(span.nearest + surface.distance * along,
+                             glm::dot(surface.normal, along) < 0.0 ? surface.normal : -surface.normal);
     return span.before - _scene.margin(span.before) * glm::normalize(along); // what is seen does not cast
+}
+
+int DepthTracer::facing(const Span& span, const RayHit& surface) const {
+    if (!surface) return 0;
+    const double seen = glm::dot(surface.normal, span.along()),
+                 lit = glm::dot(surface.normal, toLight(span.nearest).along);
+    return (seen < 0.0) == (lit > 0.0) ? 1 : -1;
 }
 
 Ray DepthTracer::toLight(const glm::dvec3& from) const {
@@ -153,7 +176,60 @@ bool DepthTracer::isLitFromBehind(const Span& span) const {
 bool DepthTracer::blocked(int x, int y) const {
     if (!(depth(x, y) < 1.0)) return false;
     const Span surface = span(x, y);
-    return _scene.blocked(toLight(start(surface))) && !isLitFromBehind(surface);
+    return blocked(surface, start(surface));
+}
+
+/// The surface's plane is that to the neighbour which is blocked as the pixel is, or to the nearer one in depth: beyond a fold another
+/// face begins, on which the light ends otherwise. An edge is where the surface goes on to the other one and beyond, to half of its
+/// slope a pixel; places in the pixel where what is seen lies otherwise about the light are another face's. Of 16 columns and 16 rows there is one place in each; a quarter turn leaves them where they are.
+template <typename IsBlocked>
+double DepthTracer::share(int x, int y, IsBlocked isBlocked) const {
+    const bool own = isBlocked(x, y);
+    const double here = depth(x, y);
+    const auto isIn = [&](int u, int v) { return u >= 0 && v >= 0 && u < _picture.width && v < _picture.height; };
+    bool ends = false;
+    glm::dvec2 change(0.0);
+    for (const int axis : {0, 1}) {
+        const int n = _picture.neighbour, dx = axis == 0 ? n : 0, dy = n - dx;
+        struct Side {
+            bool seen = false, same = false;
+            double change = 1.0; ///< to there
+            double next = 1.0;   ///< from there to the one after; the same if that is not seen.
+        } before, after;
+        for (Side* side : {&before, &after}) {
+            const int sign = side == &after ? 1 : -1, u = x + sign * dx, v = y + sign * dy;
+            if (!isIn(u, v) || !(depth(u, v) < 1.0)) continue;
+            const bool next = isIn(u + sign * dx, v + sign * dy);
+            const double to = sign * (depth(u, v) - here);
+            *side = {true, isBlocked(u, v) == own, to,
+                     next ? sign * (depth(u + sign * dx, v + sign * dy) - depth(u, v)) : to};
+        }
+        const bool isNearer = std::abs(after.change) < std::abs(before.change);
+        const Side& best =
+            after.seen && (after.same == before.same || !before.seen ? isNearer : after.same) ? after : before;
+        if (!best.seen) continue;
+        change[axis] = best.change / n;
+        const auto goesOn = [&](const Side& side) {
+            const double most = stepsOff * _picture.step + 0.5 * std::abs(best.change);
+            return side.seen && !side.same && std::abs(side.change - best.change) <= most &&
+                   std::abs(side.next - best.change) <= 2.0 * most;
+        };
+        ends = ends || goesOn(before) || goesOn(after);
+    }
+    if (!ends) return own ? 0.0 : 1.0;
+    int lit = 0, all = 0;
+    const double bend = 0.25 * (std::abs(change.x) + std::abs(change.y));
+    const Span middle = span(x, y, glm::dvec2(0.0), here, bend);
+    const int lies = facing(middle, surfaceIn(middle));
+    for (int column = 1; column <= 16; ++column) {
+        const glm::dvec2 offset = (glm::dvec2(column, 4 * column % 17) - 0.5) / 16.0 - _picture.place;
+        const Span place = span(x, y, offset, std::clamp(here + glm::dot(offset, change), 0.0, 1.0), bend);
+        const RayHit surface = surfaceIn(place);
+        if (facing(place, surface) != lies) continue;
+        ++all;
+        lit += !blocked(place, startOn(place, surface));
+    }
+    return all > 0 ? lit / double(all) : own ? 0.0 : 1.0;
 }
 
 /// True if the way from a to b, or beyond it if `endless`, meets the box.
@@ -238,6 +314,22 @@ TracedBits depthBufferShadow(const RayScene& scene, const DepthPicture& picture,
     });
     result.traced = traced;
     return result;
+}
+
+std::vector<std::uint8_t> depthBufferShares(const RayScene& scene, const DepthPicture& picture,
+                                            const glm::dmat4& clipFromScene, const glm::dvec4& light,
+                                            const std::vector<std::uint8_t>& bits) {
+    const DepthTracer tracer(scene, picture, clipFromScene, light);
+    const std::size_t stride = (std::size_t(picture.width) + 7) / 8;
+    std::vector<std::uint8_t> shares(std::size_t(picture.width) * std::size_t(picture.height));
+    const auto isBlocked = [&](int x, int y) { return isSet(bits.data() + stride * std::size_t(y), x); };
+    tbb::parallel_for(0, picture.height, [&](int y) {
+        std::uint8_t* row = shares.data() + std::size_t(picture.width) * std::size_t(y);
+        for (int x = 0; x < picture.width; ++x) {
+            row[x] = static_cast<std::uint8_t>(std::lround(255.0 * tracer.share(x, y, isBlocked)));
+        }
+    });
+    return shares;
 }
 
 } // namespace gnomon
