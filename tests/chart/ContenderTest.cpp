@@ -191,7 +191,7 @@ TEST(Entrants, OfABriefChartAreDefaultsBestsAndWhatIsAdvised) {
             else if (brief)
                 specs.push_back(each.contender.settings.at(0).second);
         }
-    EXPECT_EQ(specs.size(), 7u + 8u);
+    EXPECT_EQ(specs.size(), 7u + 12u);
     for (const char* spec : {"planar", "box", "hull", "map", "volume", "auto", "traced", "volume:composite=blend",
                              "map:edges=smooth,composite=blend,filter=fine,size=4096"})
         EXPECT_EQ(std::count(specs.begin(), specs.end(), spec), 1) << spec;

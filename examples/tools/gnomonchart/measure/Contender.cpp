@@ -157,9 +157,13 @@ struct GnomonPoint {
 constexpr GnomonPoint gnomonPoints[] = {
     {"planar", "relight", "planar", Receives::FLAT},
     {"planar", "blend", "planar:composite=blend", Receives::FLAT},
+    {"planar, smooth", "relight", "planar:edges=smooth", Receives::FLAT},
+    {"planar, smooth", "blend", "planar:edges=smooth,composite=blend", Receives::FLAT},
     {"box", "relight", "box", Receives::TERRAIN},
     {"hull", "relight", "hull", Receives::TERRAIN},
     {"hull", "blend", "hull:composite=blend", Receives::TERRAIN},
+    {"hull, smooth", "relight", "hull:edges=smooth", Receives::TERRAIN},
+    {"hull, smooth", "blend", "hull:edges=smooth,composite=blend", Receives::TERRAIN},
     {"map", "size 512", "map:size=512"},
     {"map", "size 1024", "map"},
     {"map", "size 2048", "map:size=2048"},
@@ -187,6 +191,8 @@ constexpr GnomonPoint gnomonPoints[] = {
     {"map, soft", "blend, size 2048", "map:edges=soft,composite=blend,size=2048"},
     {"volume", "relight", "volume"},
     {"volume", "blend", "volume:composite=blend"},
+    {"volume, smooth", "relight", "volume:edges=smooth"},
+    {"volume, smooth", "blend", "volume:edges=smooth,composite=blend"},
     {"auto", "error 4", "auto:error=4"},
     {"auto", "error 1", "auto"},
     {"auto", "error 0.4", "auto:error=0.4"},
@@ -195,15 +201,25 @@ constexpr GnomonPoint gnomonPoints[] = {
     {"auto", "blend, error 0.4", "auto:error=0.4,composite=blend"},
     {"traced", "relight", "traced"},
     {"traced", "blend", "traced:composite=blend"},
+    {"traced, smooth", "relight", "traced:edges=smooth"},
+    {"traced, smooth", "blend", "traced:edges=smooth,composite=blend"},
 };
 
 /// Beside the defaults: the most accurate setting of each technique in the chart of 16 scenes, the faster one of settings that are
 /// alike to a hundredth of a pixel. And two that docs/evidence/performance.md advises.
 constexpr const char* briefSpecs[] = {
-    "planar:composite=blend",           "hull:composite=blend",
-    "map:edges=smooth,composite=blend", "map:edges=smooth,composite=blend,filter=fine,size=4096",
-    "volume:composite=blend",           "auto:composite=blend",
-    "auto:error=0.4,composite=blend",   "traced:composite=blend",
+    "planar:composite=blend",
+    "hull:composite=blend",
+    "map:edges=smooth,composite=blend",
+    "map:edges=smooth,composite=blend,filter=fine,size=4096",
+    "volume:composite=blend",
+    "auto:composite=blend",
+    "auto:error=0.4,composite=blend",
+    "traced:composite=blend",
+    "volume:edges=smooth,composite=blend",
+    "traced:edges=smooth,composite=blend",
+    "planar:edges=smooth,composite=blend",
+    "hull:edges=smooth,composite=blend",
 };
 
 /// Variants of osgShadow's classes that were neither faster nor more accurate in that chart than one of the same class.

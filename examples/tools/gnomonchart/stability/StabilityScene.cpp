@@ -9,10 +9,13 @@
 namespace gnomon::examples {
 namespace {
 
-/// A specification without keys.
-bool isAtDefaults(const Contender& contender) {
-    for (const auto& [name, value] : contender.settings)
-        if (name == "--shadow" && value.find(':') != std::string::npos) return false;
+/// A specification without keys; at its best, one that asks for smooth edges alone, too.
+bool isJudged(const Contender& contender, bool best) {
+    for (const auto& [name, value] : contender.settings) {
+        const std::size_t keys = value.find(':');
+        if (name == "--shadow" && keys != std::string::npos && !(best && value.substr(keys) == ":edges=smooth"))
+            return false;
+    }
     return true;
 }
 
@@ -43,7 +46,7 @@ std::vector<StabilityScene> stabilityScenes(const std::vector<std::string>& ids)
 std::vector<Entrant> stabilityContenders(const std::vector<std::string>& parts, bool best) {
     std::vector<Entrant> chosen;
     for (Entrant& entrant : entrants(parts, best)) {
-        if (!isAtDefaults(entrant.contender)) continue;
+        if (!isJudged(entrant.contender, best)) continue;
         if (entrant.contender.kit == ourKit) entrant.contender.setting = "defaults";
         chosen.push_back(std::move(entrant));
     }

@@ -43,7 +43,7 @@ struct StabilityPlan {
     std::vector<std::pair<std::string, std::string>> made; ///< how it is made, for the results.
 };
 
-/// Gnomon's techniques at their defaults and osgShadow's, those at their best too if asked for.
+/// Gnomon's techniques at their defaults and osgShadow's; at their best, too, if asked for, which of Gnomon's are smooth edges.
 /// @param parts  of techniques' names; none: all.
 /// @throws std::invalid_argument, one sentence, if one of them is in no technique's name.
 std::vector<Entrant> stabilityContenders(const std::vector<std::string>& parts, bool best);
