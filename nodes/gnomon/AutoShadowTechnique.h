@@ -20,14 +20,16 @@ class AutoChooser;
 ///
 /// Candidates
 /// - No shadow at all, if none could be seen, or if RELIGHT would change no channel by 2/255.
+/// - All but the first with hard or smooth edges.
 /// - TerrainShadowGeode with HULL, if a terrain is named as receiver and does not shadow itself.
-/// - ShadowMapTechnique, with all sizes, numbers of cascades, filters, and hard or smooth edges.
+/// - ShadowMapTechnique, with all sizes, numbers of cascades and filters.
 /// - ShadowVolumeTechnique and TracedShadowTechnique, if no caster is clear in part.
 /// - A candidate whose shadow would be wrong here is never chosen. ShadowCandidate::obstacle says why.
 /// The rule
 /// - The error of each candidate is predicted from the shadow's edges in sight. Its work is counted: casters, triangles, texels,
 ///   pixels. Work is weighed as the time that the processor and the renderer take together.
-/// - Of those that keep the error and take up to a quarter more than the cheapest, the most accurate is taken.
+/// - Of those that keep the error and take up to a quarter more than the cheapest, or on a graphics card half a millisecond more,
+///   the most accurate is taken. So edges are smooth where that costs little.
 /// - lastDecision() gives the candidates, with the choice and its reason.
 /// - The choice follows from facts of the scene and of its last frames: two runs of a program choose alike.
 /// Changes

@@ -48,6 +48,15 @@ TEST(CandidateChoice, IsTheMostAccurateOfThoseThatTakeUpToAQuarterMoreThanTheChe
     EXPECT_EQ(chooseCandidate(three, 1.0)->index, 1u) << "what does not keep the error makes no other dear";
 }
 
+TEST(CandidateChoice, IsTheMostAccurateOfThoseThatTakeALittleMoreThanTheCheapest) {
+    const std::vector<ChoiceCandidate> two = {{true, 0.4, 0.3}, {true, 0.1, 0.8}};
+    EXPECT_EQ(chooseCandidate(two, 1.0)->index, 0u);
+    EXPECT_EQ(chooseCandidate(two, 1.0, {}, 0.49)->index, 0u);
+    EXPECT_EQ(chooseCandidate(two, 1.0, {}, 0.51)->index, 1u);
+    EXPECT_EQ(chooseCandidate(two, 1.0, {}, 0.51)->reason, ChoiceReason::MoreAccurate);
+    EXPECT_EQ(chooseCandidate({{true, 0.4, 10.0}, {true, 0.1, 12.0}}, 1.0, {}, 0.5)->index, 1u) << "a quarter is more";
+}
+
 TEST(CandidateChoice, StaysUntilAnotherIsBetterByATenth) {
     std::vector<ChoiceCandidate> two = {{true, 0.5, 1.0}, {true, 0.5, 1.24}};
     EXPECT_EQ(chooseCandidate(two, 1.0, 1)->index, 1u);

@@ -139,7 +139,7 @@ TEST(Auto, TakesTheMostAccurateOfThoseThatTakeUpToAQuarterMoreThanTheCheapest) {
         ++others;
     }
     EXPECT_GT(others, 3);
-    EXPECT_EQ(decision.reason.rfind("the most accurate of those that keep 4 px and take up to a quarter more", 0), 0u)
+    EXPECT_EQ(decision.reason.rfind("the most accurate of those that keep 4 px and take hardly more", 0), 0u)
         << decision.reason;
 }
 

@@ -327,11 +327,14 @@ std::vector<ShadowCandidate> othersOf(const ShadowDecision& decision) {
 std::string cppFor(const ShadowCandidate& candidate) {
     const ShadowSpec parsed = parseShadowSpec(candidate.spec);
     if (parsed.technique == "map") return cppFor(parsed.map);
+    const auto exact = [](const std::string& name, bool smooth, const std::string& receiver) {
+        const std::string edges = smooth ? "shadow->setEdges(gnomon::" + name + "::SMOOTH); " : "";
+        return "auto* shadow = new gnomon::" + name + "; " + receiver + edges + "group->addChild(shadow);";
+    };
     if (parsed.technique == "hull")
-        return "auto* shadow = new gnomon::TerrainShadowGeode; shadow->setReceiver({terrain}); "
-               "group->addChild(shadow);";
-    if (parsed.technique == "volume") return "group->addChild(new gnomon::ShadowVolumeTechnique);";
-    if (parsed.technique == "traced") return "group->addChild(new gnomon::TracedShadowTechnique);";
+        return exact("TerrainShadowGeode", parsed.hull.fades(), "shadow->setReceiver({terrain}); ");
+    if (parsed.technique == "volume") return exact("ShadowVolumeTechnique", parsed.volume.fades(), "");
+    if (parsed.technique == "traced") return exact("TracedShadowTechnique", parsed.traced.fades(), "");
     return "// none is needed";
 }
 

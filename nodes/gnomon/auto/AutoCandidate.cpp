@@ -38,14 +38,17 @@ using Kind = AutoCandidate::Kind;
 
 constexpr unsigned keptRounds = 60; // techniques that no view has chosen since are let go, with all that they keep
 
+template <typename Technique>
+osg::ref_ptr<ShadowTechnique> exact(const AutoCandidate& candidate) {
+    osg::ref_ptr<Technique> technique = new Technique;
+    technique->setEdges(candidate.smooth ? Technique::SMOOTH : Technique::HARD);
+    return technique;
+}
+
 osg::ref_ptr<ShadowTechnique> make(const AutoCandidate& candidate) {
-    if (candidate.kind == Kind::Volume) return new ShadowVolumeTechnique;
-    if (candidate.kind == Kind::Traced) return new TracedShadowTechnique;
-    if (candidate.kind == Kind::Terrain) {
-        osg::ref_ptr<TerrainShadowGeode> terrain = new TerrainShadowGeode;
-        terrain->setMethod(TerrainShadowOptions::HULL);
-        return terrain;
-    }
+    if (candidate.kind == Kind::Volume) return exact<ShadowVolumeTechnique>(candidate);
+    if (candidate.kind == Kind::Traced) return exact<TracedShadowTechnique>(candidate);
+    if (candidate.kind == Kind::Terrain) return exact<TerrainShadowGeode>(candidate); // by hull
     osg::ref_ptr<ShadowMapTechnique> map = new ShadowMapTechnique;
     map->setOptions(candidate.map);
     return map;
@@ -54,22 +57,23 @@ osg::ref_ptr<ShadowTechnique> make(const AutoCandidate& candidate) {
 } // namespace
 
 std::string AutoCandidate::spec() const {
+    const std::string edges = smooth ? ":edges=smooth" : "";
     switch (kind) {
     case Kind::Terrain:
-        return "hull";
+        return "hull" + edges;
     case Kind::Map:
         return specOf(map);
     case Kind::Volume:
-        return "volume";
+        return "volume" + edges;
     case Kind::Traced:
-        return "traced";
+        return "traced" + edges;
     default:
         return "none";
     }
 }
 
 bool AutoCandidate::isSame(const AutoCandidate& other) const {
-    if (kind != other.kind) return false;
+    if (kind != other.kind || smooth != other.smooth) return false;
     return kind != Kind::Map || (map.size == other.map.size && map.filter == other.map.filter &&
                                  map.cascades == other.map.cascades && map.edges == other.map.edges);
 }

@@ -26,6 +26,7 @@ struct AutoCandidate {
 
     Kind kind = Kind::Nothing;
     ShadowMapOptions map = {};
+    bool smooth = false;                            ///< edges are, of what is no map.
     double error = 0.0;                             ///< pixels.
     bool flawed = false;                            ///< see ChoiceCandidate.
     ShadowWork still = {};                          ///< in every frame.

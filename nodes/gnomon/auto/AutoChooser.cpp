@@ -38,7 +38,7 @@ std::string reasonFor(ChoiceReason reason, double error) {
     const std::string budget = textOf(error) + " px";
     if (reason == ChoiceReason::Cheapest) return "the cheapest that keeps " + budget;
     if (reason == ChoiceReason::MoreAccurate)
-        return "the most accurate of those that keep " + budget + " and take up to a quarter more than the cheapest";
+        return "the most accurate of those that keep " + budget + " and take hardly more than the cheapest";
     if (reason == ChoiceReason::Kept) return "chosen before, and keeps " + budget + "; no other is better by a tenth";
     return "the most accurate, for none keeps " + budget;
 }
@@ -136,7 +136,7 @@ void AutoChooser::decide(Choice& choice, const Seen& now, const ShadowInView& sh
             {candidate.obstacle.empty(), candidate.error, candidate.time(rates, expected), candidate.flawed});
     }
     const CandidateChoice chosen =
-        chooseCandidate(judged, now.error, before).value_or(CandidateChoice{0, ChoiceReason::Cheapest});
+        chooseCandidate(judged, now.error, before, rates.little).value_or(CandidateChoice{0, ChoiceReason::Cheapest});
     const AutoCandidate& candidate = list.all[chosen.index];
     if (decision.decisions > 0 && !candidate.isSame(choice.candidate)) ++decision.changes;
     ++decision.decisions;

@@ -46,6 +46,10 @@ constexpr double faded = 1.6;          // times as many leaves are relit where p
 constexpr double readBack = 0.5;       // what a pixel's depth takes that the processor reads, to one that a step copies
 constexpr double lookedUp = 0.2;       // for each further map of a light a pixel takes so much longer
 constexpr double redrawn = 0.15;       // of the frames of a moving view: a map is drawn again
+constexpr double callsToSmooth = 8.0;  // to find where marks end within pixels
+constexpr double pixelsToSmooth = 3.0; // of the same, times those where a shadow can be
+constexpr double raysToSmooth = 0.9;   // for a pixel where a shadow can be: 32 where marks end, which few are
+constexpr double smoothError = 0.25;   // of a share of a pixel, to one sample
 constexpr double looksOfAHull = 3.0;   // at each caster in a frame, where others look once
 constexpr double trianglesOfAHull = 3.0; // of a dense mesh, whose shadow takes as long as that of so many boxes
 constexpr double drawnOfDense = 35.0;    // triangles for one of a dense mesh, whose shadows overlap
@@ -215,7 +219,20 @@ private:
         hull.still.triangles = 6.0 * _pieces + drawnOfDense * dense;
         hull.light.hulls = _pieces + dense / trianglesOfAHull;
         hull.casters = hull.light;
-        _result.all.push_back(hull);
+        addBoth(hull, facts.off / _one.pixel, hull.still.triangles);
+    }
+
+    /// The same with smooth edges, too. @param off  by so many pixels its edges lie elsewhere. @param sides  triangles of these.
+    void addBoth(const AutoCandidate& hard, double off, double sides) {
+        _result.all.push_back(hard);
+        AutoCandidate smooth = hard;
+        smooth.smooth = true;
+        smooth.error = std::hypot(smoothError * _sampled, off);
+        smooth.still.calls += callsToSmooth;
+        smooth.still.pixels += pixelsToSmooth * _pixels;
+        smooth.still.triangles += sides;
+        if (!blends()) smooth.still.leaves *= faded;
+        _result.all.push_back(smooth);
     }
 
     MapForecast forecast(int cascades, int size) const {
@@ -291,7 +308,7 @@ private:
         volume.casters.faced = movingShare() * volume.light.faced;
         volume.casters.sides = movingShare() * volume.light.sides;
         volume.why = "its volumes have some " + roundedText(forecast.sides) + " sides";
-        _result.all.push_back(volume);
+        addBoth(volume, 0.0, 2.0 * forecast.sides);
     }
 
     void addTraced() {
@@ -304,7 +321,9 @@ private:
         traced.still.pixels = readBack * _pixels;
         // A still picture keeps them. They count all the same: else its first frame of motion would be the dearest of all.
         traced.still.rays = _pixels;
-        _result.all.push_back(traced);
+        addBoth(traced, 0.0, 0.0);
+        _result.all.back().still.calls = traced.still.calls;
+        _result.all.back().still.rays += raysToSmooth * _pixels;
     }
 
     CandidateSearch& _search;

@@ -53,7 +53,7 @@ double timeOf(const ShadowWork& work, const RendererRates& rates) {
 }
 
 std::optional<CandidateChoice> chooseCandidate(const std::vector<ChoiceCandidate>& candidates, double error,
-                                               std::optional<std::size_t> before) {
+                                               std::optional<std::size_t> before, double little) {
     std::vector<ChoiceCandidate> left = candidates;
     const bool keepsError = leastOf(&ChoiceCandidate::error, candidates) <= error;
     if (keepsError) limit(left, &ChoiceCandidate::error, error);
@@ -65,7 +65,7 @@ std::optional<CandidateChoice> chooseCandidate(const std::vector<ChoiceCandidate
         left[*before].error *= favour;
     }
     const double cheapest = leastOf(&ChoiceCandidate::time, left);
-    if (keepsError) limit(left, &ChoiceCandidate::time, hardlyDearer * cheapest);
+    if (keepsError) limit(left, &ChoiceCandidate::time, std::max(hardlyDearer * cheapest, cheapest + little));
     limit(left, &ChoiceCandidate::error, sameError * leastOf(&ChoiceCandidate::error, left));
     const double time = leastOf(&ChoiceCandidate::time, left);
     const auto chosen = std::find_if(left.begin(), left.end(),
@@ -73,7 +73,7 @@ std::optional<CandidateChoice> chooseCandidate(const std::vector<ChoiceCandidate
     if (chosen == left.end()) return std::nullopt;
     const auto index = std::size_t(chosen - left.begin());
     if (!keepsError) return CandidateChoice{index, ChoiceReason::ErrorTooSmall};
-    if (index == before && chooseCandidate(candidates, error)->index != index)
+    if (index == before && chooseCandidate(candidates, error, {}, little)->index != index)
         return CandidateChoice{index, ChoiceReason::Kept};
     return CandidateChoice{index, time > cheapest ? ChoiceReason::MoreAccurate : ChoiceReason::Cheapest};
 }

@@ -32,14 +32,16 @@ struct RendererRates {
     double instructions; ///< that the processor executes in a millisecond.
     /// What the renderer takes for a unit of each kind of work, milliseconds.
     double call, triangle, texel, pixel, tap, relit, filled;
+    double little; ///< milliseconds that nobody minds, see chooseCandidate().
 };
 
 /// llvmpipe on one core of an AMD EPYC of 14.5 instructions a nanosecond: fitted to processor time, less what the processor takes
 /// where Mesa draws nothing, of 102 frames of seven scenes.
-constexpr RendererRates llvmpipeRates = {14.5e6, 0.012, 1.6e-4, 1.04e-6, 1.4e-5, 1.7e-6, 2.4e-4, 7e-7};
+constexpr RendererRates llvmpipeRates = {14.5e6, 0.012, 1.6e-4, 1.04e-6, 1.4e-5, 1.7e-6, 2.4e-4, 7e-7, 0.0};
 /// Graphics processors. A call took 24 µs on an NVIDIA H200 beside a processor of some 3 instructions a nanosecond, of which 8 are
-/// the processor's. The others are estimates: 10⁹ triangles, 3·10¹⁰ texels and 10¹⁰ blended pixels a second.
-constexpr RendererRates graphicsRates = {3e6, 0.016, 1e-6, 3e-8, 2e-7, 5e-8, 2e-6, 1e-7};
+/// the processor's. The others are estimates: 10⁹ triangles, 3·10¹⁰ texels and 10¹⁰ blended pixels a second. A display shows a frame
+/// for 16 ms: half of one more is not seen.
+constexpr RendererRates graphicsRates = {3e6, 0.016, 1e-6, 3e-8, 2e-7, 5e-8, 2e-6, 1e-7, 0.5};
 
 /// Milliseconds of the processor in OpenSceneGraph, in Gnomon and in OpenGL's driver.
 double processorTime(const ShadowWork& work, const RendererRates& rates);
@@ -79,8 +81,9 @@ constexpr double favour = 0.9;
 /// Chooses among those that keep the error; the same arguments give the same choice.
 /// @param error   pixels, at most.
 /// @param before  the one that is drawn now.
+/// @param little  what takes so many milliseconds more than the cheapest is hardly dearer, too.
 /// @return nullopt if none is usable.
 std::optional<CandidateChoice> chooseCandidate(const std::vector<ChoiceCandidate>& candidates, double error,
-                                               std::optional<std::size_t> before = {});
+                                               std::optional<std::size_t> before = {}, double little = 0.0);
 
 } // namespace gnomon
