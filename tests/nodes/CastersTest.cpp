@@ -19,6 +19,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <initializer_list>
 #include <limits>
 
 using gnomon::Casters;
@@ -237,6 +239,39 @@ TEST(Casters, AreClearSolidOrCutOutByTheTexelsThatTheyShow) {
         const auto pieces = Leaf(leftTexture(each.wrap), each.first, each.end).pieces();
         EXPECT_EQ(pieces->list.front()->triangles, each.triangles) << each.wrap << " " << each.first;
         EXPECT_EQ(pieces->cutouts, each.cutouts) << each.wrap << " " << each.first;
+    }
+}
+
+/// Those left out are t = 0 and q = 1, and a fourth divides the others: each array shows the same columns of the texture.
+TEST(Casters, AreToldByTextureCoordinatesOfOneToFourNumbers) {
+    struct Case {
+        float first, end; ///< columns.
+        std::size_t triangles;
+        unsigned cutouts;
+    };
+    for (const Case& each : {Case{0, 3, 1, 0}, {3, 8, 0, 0}, {2, 4, 1, 1}}) {
+        const float s = each.first / 8.0f, t = each.end / 8.0f;
+        const std::array<float, 3> columns{s, t, s}, rows{0.0f, 0.0f, 1.0f};
+        const osg::ref_ptr<osg::FloatArray> ones = new osg::FloatArray;
+        const osg::ref_ptr<osg::Vec2Array> twos = new osg::Vec2Array;
+        const osg::ref_ptr<osg::Vec4Array> fours = new osg::Vec4Array;
+        const osg::ref_ptr<osg::Vec4dArray> doubles = new osg::Vec4dArray;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const float q = i == 1 ? 4.0f : 2.0f;
+            ones->push_back(columns[i]);
+            twos->push_back({columns[i], rows[i]});
+            fours->push_back(osg::Vec4(columns[i], rows[i], 0.0f, 1.0f) * q);
+            doubles->push_back(osg::Vec4d(fours->back()));
+        }
+        for (const osg::ref_ptr<osg::Array>& array :
+             std::initializer_list<osg::ref_ptr<osg::Array>>{ones.get(), twos.get(), fours.get(), doubles.get()}) {
+            Leaf leaf(leftTexture(), each.first, each.end);
+            leaf.drawable->setTexCoordArray(0, array, osg::Array::BIND_PER_VERTEX);
+            const auto pieces = leaf.pieces();
+            EXPECT_EQ(pieces->list.front()->triangles, each.triangles) << each.first << " " << array->getDataSize();
+            EXPECT_EQ(pieces->cutouts, each.cutouts) << each.first << " " << array->getDataSize();
+            EXPECT_TRUE(pieces->selfDrawings.empty()) << each.first << " " << array->getDataSize();
+        }
     }
 }
 

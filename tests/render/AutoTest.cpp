@@ -226,6 +226,25 @@ TEST(Auto, DrawsNothingWhereTheLightIsTooFaintToMissIt) {
     EXPECT_NE(chosen(), "none") << "a program may make much of little light";
 }
 
+/// OpenGL divides what a lamp gives by its constant attenuation, if nothing else is set: 1 step by 0.1 makes 10. A sun's is the
+/// same at any distance.
+TEST(Auto, TakesALampForFaintOnlyIfItsAttenuationMakesNoMoreOfIt) {
+    const auto chosenAt = [](const osg::Vec4d& place, float constant) {
+        Trial trial({cube}, {}, 8.0, place);
+        osg::Light& light = *trial.scene.light->getLight();
+        light.setDiffuse({1.0f / 255.0f, 1.0f / 255.0f, 1.0f / 255.0f, 1.0f});
+        light.setSpecular({0.0f, 0.0f, 0.0f, 1.0f});
+        light.setConstantAttenuation(constant);
+        Camera(trial.scene.root, view()).frame();
+        return trial.chosen();
+    };
+    const osg::Vec4d lamp(3.0, 2.0, 9.0, 1.0);
+    EXPECT_EQ(chosenAt(lamp, 1.0f), "none");
+    EXPECT_NE(chosenAt(lamp, 0.1f), "none");
+    EXPECT_EQ(chosenAt(sun, 1.0f), "none");
+    EXPECT_EQ(chosenAt(sun, 0.1f), "none");
+}
+
 // 1.2 and 1.3 of 255 steps are 2.5 together: where both shadows fall, that can be seen.
 TEST(Auto, CountsFaintLightsTogether) {
     Trial trial({cube});
