@@ -24,7 +24,7 @@ namespace gnomon {
 class ShadowCasterGroup;
 
 class Casters;
-class ProgramCauses;
+class ViewPrograms;
 
 /// A drawable that casts, at one place.
 struct CasterBox {
@@ -74,7 +74,7 @@ struct GNOMON_EXPORT ViewFrame {
     /// techniques find anew what they see.
     std::uint64_t seenValue = 0;
     bool movesReceivers = false; ///< Programs move some of `seen` out of their boxes, anywhere in the view.
-    const ProgramCauses* drawn =
+    const ViewPrograms* drawn =
         nullptr; ///< Tells which casters the view draws, within prepare(); null if nobody knows.
 
     /// Takes the group's frame to clip space.

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/compositor/KeptByStage.h>
 #include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/compositor/ShadowJob.h>
 #include <gnomon/group/ReceiverCauses.h>
@@ -8,7 +7,6 @@
 #include <osgUtil/StateGraph>
 
 #include <algorithm>
-#include <set>
 
 namespace gnomon {
 namespace {
@@ -74,18 +72,6 @@ std::string whyNoPicture(const EnlistedTechnique& entry) {
            "', and takes neither light nor textures, as programs do that draw identifiers. So no shadow falls here. "
            "Set "
            "it without osg::StateAttribute::OVERRIDE if it draws a picture.";
-}
-
-Leaves receivingOf(const EnlistedTechnique& entry, const std::vector<DrawnLeaf>& leaves, osgUtil::RenderStage& stage) {
-    const bool named = entry.technique->hasReceiver();
-    LeafSet receivers;
-    if (named)
-        receivers = receiversAmong(leaves, entry.technique->getReceiver(), *stage.getInitialViewMatrix(), *entry.group);
-    Leaves receiving;
-    for (const DrawnLeaf& leaf : leaves)
-        if (isSameLens(projectionOf(*leaf.leaf), *entry.projection) && (!named || receivers.count(leaf.leaf) > 0))
-            receiving.push_back(leaf.leaf);
-    return receiving;
 }
 
 bool reportOtherLens(const TechniqueInStage& asked) {

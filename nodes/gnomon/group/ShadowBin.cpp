@@ -140,7 +140,7 @@ void addMarks(FrameWork& work, const std::vector<ShadowJob>& jobs, std::size_t f
 }
 
 /// Where leaves can be seen.
-std::optional<ScreenRect> boundsOf(const Leaves& leaves, const ProgramCauses& programs) {
+std::optional<ScreenRect> boundsOf(const Leaves& leaves, const ViewPrograms& programs) {
     std::optional<ScreenRect> all;
     for (const osgUtil::RenderLeaf* leaf : leaves)
         if (const std::optional<ScreenRect> place =

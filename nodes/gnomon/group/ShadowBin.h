@@ -11,9 +11,6 @@
 
 namespace gnomon {
 
-struct Receiving;
-struct TechniqueInStage;
-
 /// The compositor: takes each light away from the pixels that techniques mark, in one RenderStage. All groups share it.
 ///
 /// It runs after all opaque bins of the stage and before the transparent ones. Lights and leaves are asked for after the

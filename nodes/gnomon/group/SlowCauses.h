@@ -2,7 +2,7 @@
 #pragma once
 #include <gnomon/ShadowLight.h>
 #include <gnomon/casters/Casters.h>
-#include <gnomon/group/ReceiverCauses.h>
+#include <gnomon/group/StageLeaves.h>
 
 #include <string>
 #include <vector>

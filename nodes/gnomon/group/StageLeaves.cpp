@@ -39,7 +39,7 @@ ViewFrame viewOf(const EnlistedTechnique& entry, const osg::Viewport& viewport) 
     return view;
 }
 
-ProgramCauses::ProgramCauses(osgUtil::RenderStage& stage)
+ViewPrograms::ViewPrograms(osgUtil::RenderStage& stage)
     : _eyeFromWorld(*stage.getInitialViewMatrix()), _all(leavesBelow(stage, std::numeric_limits<int>::max())) {
     const osgUtil::StateGraph* graph = nullptr; // leaves of one state mostly follow each other
     ProgramPlaces places;
@@ -69,7 +69,7 @@ bool areAsArraysStand(const osgUtil::StateGraph* graph) {
 } // namespace
 
 /// Leaves of one state, of one lens and of one matrix mostly follow each other.
-std::uint64_t ProgramCauses::standingValue() const {
+std::uint64_t ViewPrograms::standingValue() const {
     if (_standingValue) return *_standingValue;
     Fingerprint value;
     const osgUtil::StateGraph* graph = nullptr;
@@ -87,7 +87,7 @@ std::uint64_t ProgramCauses::standingValue() const {
     return *(_standingValue = value.value());
 }
 
-void ProgramCauses::findStanding(const osg::Matrixd& projection) const {
+void ViewPrograms::findStanding(const osg::Matrixd& projection) const {
     _standing.emplace();
     _lens = projection;
     const osgUtil::StateGraph* graph = nullptr; // leaves of one state mostly follow each other
@@ -102,13 +102,13 @@ void ProgramCauses::findStanding(const osg::Matrixd& projection) const {
     }
 }
 
-const DrawablePlaces& ProgramCauses::standing(const osg::Matrixd& projection) const {
+const DrawablePlaces& ViewPrograms::standing(const osg::Matrixd& projection) const {
     if (!_standing || !isSameLens(_lens, projection)) findStanding(projection);
     return *_standing;
 }
 
-void ProgramCauses::report(const FrameReport& report, const ShadowCasterGroup& group, const Leaves& receiving,
-                           const Leaves& receivingLate) const {
+void ViewPrograms::report(const FrameReport& report, const ShadowCasterGroup& group, const Leaves& receiving,
+                          const Leaves& receivingLate) const {
     for (const Leaves* leaves : {&receiving, &receivingLate}) {
         if (_setDepths.empty()) break;
         const auto bends = [this](const auto* leaf) { return _setDepths.count(leaf) > 0; };
@@ -131,14 +131,26 @@ void ProgramCauses::report(const FrameReport& report, const ShadowCasterGroup& g
                "and receiver.");
 }
 
-std::string ProgramCauses::firstUnseen(const ShadowCasterGroup& group, const Leaves& receiving,
-                                       const Leaves& receivingLate) const {
+std::string ViewPrograms::firstUnseen(const ShadowCasterGroup& group, const Leaves& receiving,
+                                      const Leaves& receivingLate) const {
     if (_unseen.empty()) return {};
     for (const Leaves* leaves : {&receiving, &receivingLate})
         for (const osgUtil::RenderLeaf* leaf : *leaves)
             if (placesIn(leaf->_parent).unseen) return nameOf(*leaf);
     const osgUtil::RenderLeaf* caster = firstCaster(group, _unseen, _eyeFromWorld);
     return caster ? nameOf(*caster) : std::string();
+}
+
+Leaves receivingOf(const EnlistedTechnique& entry, const std::vector<DrawnLeaf>& leaves, osgUtil::RenderStage& stage) {
+    const bool named = entry.technique->hasReceiver();
+    LeafSet receivers;
+    if (named)
+        receivers = receiversAmong(leaves, entry.technique->getReceiver(), *stage.getInitialViewMatrix(), *entry.group);
+    Leaves receiving;
+    for (const DrawnLeaf& leaf : leaves)
+        if (isSameLens(projectionOf(*leaf.leaf), *entry.projection) && (!named || receivers.count(leaf.leaf) > 0))
+            receiving.push_back(leaf.leaf);
+    return receiving;
 }
 
 } // namespace gnomon

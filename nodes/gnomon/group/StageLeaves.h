@@ -48,15 +48,15 @@ ViewFrame viewOf(const EnlistedTechnique& entry, const osg::Viewport& viewport);
 
 using Leaves = std::vector<const osgUtil::RenderLeaf*>;
 
-/// What the programs of one view do that shadows cannot follow, for diagnose(); and which casters the view draws where they stand.
-/// Asked for once a view.
+/// The programs of one view: which casters it draws where their arrays stand, which leaves are moved; and for diagnose() what
+/// shadows cannot follow. Asked for once a view.
 ///
 /// Cost    a look at each state's program, and once at each program's text. standing(): the leaves are sorted once, where those of
 ///         casters are in another order.
-class ProgramCauses {
+class ViewPrograms {
 public:
-    ProgramCauses() = default;
-    explicit ProgramCauses(osgUtil::RenderStage& stage);
+    ViewPrograms() = default;
+    explicit ViewPrograms(osgUtil::RenderStage& stage);
 
     /// Where the view has leaves whose vertices, depth and fragments are those that their arrays give: their depth stands, then,
     /// and hides what is behind them. What a cull or a draw callback, an occluder or small feature culling leaves out, does
@@ -97,13 +97,13 @@ struct StageLeaves {
     StageLeaves(osgUtil::RenderStage& stage, int number, bool all)
         : early(leavesBelow(stage, number)), late(all ? lateReceivers(stage, number) : LateReceivers()) {
         if (!all) return;
-        programs = ProgramCauses(stage);
+        programs = ViewPrograms(stage);
         for (const auto* leaves : {&early, &late.leaves}) findDisplaced(*leaves);
     }
 
     std::vector<DrawnLeaf> early; ///< before the bin.
     LateReceivers late;
-    ProgramCauses programs;
+    ViewPrograms programs;
     std::map<const osgUtil::RenderLeaf*, DepthPlacement> displaced; ///< those whose depths are not the projection's.
 
 private:
@@ -115,6 +115,23 @@ private:
             if (!placement.isPlain()) displaced[entry.leaf] = placement;
         }
     }
+};
+
+/// A technique in the stage that it was met in.
+struct TechniqueInStage {
+    const EnlistedTechnique& entry;
+    const std::vector<EnlistedTechnique>& all; ///< that were met there.
+    const StageLeaves& drawn;
+    osgUtil::RenderStage& stage;
+};
+
+/// Those of the leaves that receive from a technique, as its lens sees them: its named receiver's, or all.
+Leaves receivingOf(const EnlistedTechnique& entry, const std::vector<DrawnLeaf>& leaves, osgUtil::RenderStage& stage);
+
+/// What a technique receives with in one view.
+struct Receiving {
+    Leaves early; ///< before the bin.
+    Leaves late;
 };
 
 } // namespace gnomon

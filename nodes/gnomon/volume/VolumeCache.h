@@ -50,7 +50,7 @@ private:
         osg::Matrixd eyeFromGroup;
         glm::dmat4 clipFromScene{0.0};
         std::uint64_t seenValue = 0;     ///< see ViewFrame.
-        std::uint64_t standingValue = 0; ///< see ProgramCauses.
+        std::uint64_t standingValue = 0; ///< see ViewPrograms.
     };
 
     bool follow(Found& found, const std::vector<VolumeCaster>& casters, const glm::dvec4& light);
