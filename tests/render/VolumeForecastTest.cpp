@@ -53,7 +53,7 @@ public:
         const gnomon::SceneFrame scene(layers.origin);
         const auto seen =
             gnomon::VolumeCache().see(layers, view, light.number, *gnomon::lightInScene(light.inGroup, scene), scene);
-        if (seen) drawn = drawnOf(seen->seen());
+        if (seen) drawn = drawnOf(*seen);
         gnomon::OpenCasters known;
         const auto inGroup = gnomon::lightInScene(light.inGroup, gnomon::SceneFrame(osg::Vec3d()));
         expected = gnomon::forecastVolumes(view, layers, *inGroup, known);

@@ -455,15 +455,23 @@ std::vector<VolumeRound> SeenVolumes::rounds(unsigned capacity) const {
     return all;
 }
 
-bool SeenVolumes::overflow(unsigned capacity) const {
-    return std::any_of(parts.begin(), parts.end(),
-                       [&](const SeenPart& seen) { return volumeOf(*this, seen).layers > capacity; });
+std::shared_ptr<const SeenVolumes::Counted> SeenVolumes::countedBy(unsigned capacity) const {
+    OpenThreads::ScopedLock<OpenThreads::Mutex> lock(_mutex);
+    const auto passes = [&](const SeenPart& seen) { return volumeOf(*this, seen).layers > capacity; };
+    if (_capacity != capacity)
+        _counted =
+            std::make_shared<const Counted>(Counted{rounds(capacity), std::any_of(parts.begin(), parts.end(), passes)});
+    _capacity = capacity;
+    return _counted;
 }
 
-double SeenVolumes::vertexStep(double near) const {
+namespace {
+
+/// See SeenVolumes.
+double vertexStepOf(const SeenVolumes& all, double near) {
     double most = 0.0;
-    for (const SeenPart& seen : parts) {
-        const MeshInView& mesh = meshes[seen.mesh];
+    for (const SeenPart& seen : all.parts) {
+        const MeshInView& mesh = all.meshes[seen.mesh];
         const SilhouetteMesh::Part& part = mesh.volumes->caster().mesh->parts[seen.part];
         const glm::dvec3 low(part.low), high(part.high), away = glm::max(glm::max(low, -high), 0.0);
         const glm::dvec4 across = glm::row(mesh.clipFromMesh, 0), towards = glm::row(mesh.clipFromMesh, 3);
@@ -475,19 +483,17 @@ double SeenVolumes::vertexStep(double near) const {
     return most;
 }
 
-std::shared_ptr<const KeptVolumes::Counted> KeptVolumes::countedBy(unsigned capacity) const {
-    OpenThreads::ScopedLock<OpenThreads::Mutex> lock(_mutex);
-    if (_capacity != capacity)
-        _counted = std::make_shared<const Counted>(Counted{_seen.rounds(capacity), _seen.overflow(capacity)});
-    _capacity = capacity;
-    return _counted;
-}
+} // namespace
 
-std::optional<SeenVolumes> seenVolumes(const std::vector<osg::ref_ptr<LightVolumes>>& all,
-                                       const glm::dmat4& clipFromScene, const UnseenCasters& unseen) {
-    SeenVolumes result;
-    for (std::size_t i = 0; i < all.size(); ++i) lookAt(*all[i], i, clipFromScene, unseen, result);
-    if (result.parts.empty()) return std::nullopt;
+std::shared_ptr<const SeenVolumes> seenVolumes(const std::vector<osg::ref_ptr<LightVolumes>>& all,
+                                               const glm::dmat4& clipFromScene, double near,
+                                               const osg::ref_ptr<const VolumeRounds>& rounds,
+                                               const UnseenCasters& unseen) {
+    const auto result = std::make_shared<SeenVolumes>();
+    result->inRounds = rounds;
+    for (std::size_t i = 0; i < all.size(); ++i) lookAt(*all[i], i, clipFromScene, unseen, *result);
+    if (result->parts.empty()) return nullptr;
+    result->vertexStep = vertexStepOf(*result, near);
     return result;
 }
 

@@ -178,54 +178,41 @@ struct VolumeRound {
 };
 
 /// What a view needs of the volumes of one light.
+///
+/// Threads  any number.
 struct SeenVolumes {
     std::vector<MeshInView> meshes;
     std::vector<SeenPart> parts;
     ScreenRect bounds{};                       ///< where they can be seen.
     osg::ref_ptr<const VolumeRounds> inRounds; ///< null: one holds them all.
+    /// How long the longest step of a vertex's floats is where it is seen at its nearest, as a share of the viewport's width.
+    double vertexStep = 0.0;
 
     /// @param capacity  what a counter can count to, 1 or more.
     std::vector<VolumeRound> rounds(unsigned capacity) const;
-    /// How long the longest step of a vertex's floats is where it is seen at its nearest, as a share of the viewport's width.
-    /// @param near  least w of what is seen.
-    double vertexStep(double near) const;
-    /// True if a counter may pass its range.
-    bool overflow(unsigned capacity) const;
-
-private:
-    std::vector<unsigned> roundOfEach(unsigned capacity) const;
-};
-
-/// The same, with what is found of it once.
-///
-/// Threads  any number.
-class KeptVolumes {
-public:
-    /// @param near  see SeenVolumes::vertexStep().
-    KeptVolumes(SeenVolumes seen, double near) : _seen(std::move(seen)), _vertexStep(_seen.vertexStep(near)) {}
-
-    const SeenVolumes& seen() const { return _seen; }
-    /// See SeenVolumes.
-    double vertexStep() const { return _vertexStep; }
 
     struct Counted {
         std::vector<VolumeRound> rounds;
-        bool overflow; ///< see SeenVolumes.
+        bool overflow; ///< a counter may pass its range.
     };
     /// Kept for one capacity: a view's stencil bits seldom change.
     std::shared_ptr<const Counted> countedBy(unsigned capacity) const;
 
 private:
-    const SeenVolumes _seen;
-    const double _vertexStep;
+    std::vector<unsigned> roundOfEach(unsigned capacity) const;
+
     mutable OpenThreads::Mutex _mutex;
     mutable unsigned _capacity = 0; ///< which _counted is for; 0: none yet.
     mutable std::shared_ptr<const Counted> _counted;
 };
 
+/// @param near    least w of what is seen.
+/// @param rounds  of these volumes; null: one holds them all.
 /// @param unseen  hide nothing.
-/// @return nullopt if none can be seen.
-std::optional<SeenVolumes> seenVolumes(const std::vector<osg::ref_ptr<LightVolumes>>& all,
-                                       const glm::dmat4& clipFromScene, const UnseenCasters& unseen = {});
+/// @return null if none can be seen.
+std::shared_ptr<const SeenVolumes> seenVolumes(const std::vector<osg::ref_ptr<LightVolumes>>& all,
+                                               const glm::dmat4& clipFromScene, double near,
+                                               const osg::ref_ptr<const VolumeRounds>& rounds = nullptr,
+                                               const UnseenCasters& unseen = {});
 
 } // namespace gnomon

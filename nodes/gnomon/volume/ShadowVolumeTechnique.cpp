@@ -17,7 +17,7 @@ namespace {
 /// Marks of one light in one view: what is in a volume.
 class VolumeMark : public Mark {
 public:
-    std::shared_ptr<const KeptVolumes> volumes; ///< never null.
+    std::shared_ptr<const SeenVolumes> volumes; ///< never null.
     osg::ref_ptr<const osg::StateSet> program;
     osg::ref_ptr<const MarkEdges> smooth; ///< null: edges are hard.
     glm::dvec2 pushedBack{0.0};           ///< see ViewFrame.
@@ -127,7 +127,7 @@ std::string VolumeMark::draw(ScreenPass& pass) const {
     osg::State& state = pass.state();
     const unsigned bit = pass.bit();
     const unsigned counters = pass.counters() ? pass.counters() : bit;
-    const std::shared_ptr<const KeptVolumes::Counted> counted = volumes->countedBy(capacityOf(pass));
+    const std::shared_ptr<const SeenVolumes::Counted> counted = volumes->countedBy(capacityOf(pass));
     if (!pass.counters() && counted->rounds.size() > 1) return noCounter;
     for (const VolumeRound& round : counted->rounds) {
         if (round.holding) { // what all pixels begin with
@@ -137,9 +137,8 @@ std::string VolumeMark::draw(ScreenPass& pass) const {
         }
         state.apply(program.get());
         if (!hasProgram(state)) return noProgram;
-        for (const auto& [mesh, share] : round.shares) count(pass, counters, volumes->seen().meshes[mesh], share);
-        for (const auto& [mesh, share] : round.shares)
-            uncountBacks(pass, counters, volumes->seen().meshes[mesh], share);
+        for (const auto& [mesh, share] : round.shares) count(pass, counters, volumes->meshes[mesh], share);
+        for (const auto& [mesh, share] : round.shares) uncountBacks(pass, counters, volumes->meshes[mesh], share);
         glFrontFace(GL_CCW);
         state.apply();
         if (pass.counters())
@@ -153,7 +152,7 @@ std::string VolumeMark::draw(ScreenPass& pass) const {
 void VolumeMark::drawEdges(ScreenPass& pass) const {
     for (const VolumeRound& round : volumes->countedBy(capacityOf(pass))->rounds)
         for (const auto& [mesh, share] : round.shares) {
-            const MeshInView& seen = volumes->seen().meshes[mesh];
+            const MeshInView& seen = volumes->meshes[mesh];
             place(pass.state(), seen);
             for (const VolumeRound::Sides* sides : {&share.entered, &share.left}) {
                 seen.volumes->sides().draw(pass.renderInfo(), sides->usual);
@@ -169,13 +168,13 @@ void VolumeMark::drawDebugView(ScreenPass& pass, int) const {
     pass.beginReplace();
     pass.testDepth(GL_LEQUAL, false);
     glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
-    for (const VolumeRound& round : volumes->seen().rounds(~0u))
+    for (const VolumeRound& round : volumes->rounds(~0u))
         for (const auto& [mesh, share] : round.shares) {
-            place(state, volumes->seen().meshes[mesh]);
+            place(state, volumes->meshes[mesh]);
             setUniform(state, "wire", glm::dvec4(1.0, 0.85, 0.0, 1.0));
-            drawSides(pass.renderInfo(), volumes->seen().meshes[mesh].volumes->sides(), share.entered);
+            drawSides(pass.renderInfo(), volumes->meshes[mesh].volumes->sides(), share.entered);
             setUniform(state, "wire", glm::dvec4(1.0, 0.2, 0.1, 1.0));
-            drawSides(pass.renderInfo(), volumes->seen().meshes[mesh].volumes->sides(), share.left);
+            drawSides(pass.renderInfo(), volumes->meshes[mesh].volumes->sides(), share.left);
         }
     glFrontFace(GL_CCW);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
@@ -215,12 +214,12 @@ std::vector<osg::ref_ptr<Mark>> ShadowVolumeTechnique::prepare(const ViewFrame& 
         report(view.frameNumber, notUsable(light.inGroup));
         return {};
     }
-    const std::shared_ptr<const KeptVolumes> volumes = _cache->see(layers, view, light.number, *usable, scene);
+    const std::shared_ptr<const SeenVolumes> volumes = _cache->see(layers, view, light.number, *usable, scene);
     if (!volumes) return {}; // out of sight: nothing to say
-    if (volumes->vertexStep() * view.pixels.x() > mostOff) report(view.frameNumber, coarse);
+    if (volumes->vertexStep * view.pixels.x() > mostOff) report(view.frameNumber, coarse);
     osg::ref_ptr<VolumeMark> mark = new VolumeMark;
     mark->volumes = volumes;
-    mark->screenBounds = volumes->seen().bounds;
+    mark->screenBounds = volumes->bounds;
     mark->program = _cache->program;
     if (_options.edges == SMOOTH) mark->smooth = _cache->edges;
     mark->pushedBack = {view.pushedBack.x(), view.pushedBack.y()};

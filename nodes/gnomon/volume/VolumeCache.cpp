@@ -58,7 +58,7 @@ double nearOf(const osg::Matrixd& projection) {
 
 VolumeCache::VolumeCache() : program(shaderProgram("#define EXTRUDE\n")), edges(new MarkEdges(MarkEdges::Of::Sides)) {}
 
-std::shared_ptr<const KeptVolumes> VolumeCache::see(const CasterLayers& casters, const ViewFrame& view, int lightNumber,
+std::shared_ptr<const SeenVolumes> VolumeCache::see(const CasterLayers& casters, const ViewFrame& view, int lightNumber,
                                                     const glm::dvec4& light, const SceneFrame& scene) {
     Lock lock(_mutex);
     Found& found = _found.of(view.key, lightNumber, view.frameNumber);
@@ -82,11 +82,8 @@ std::shared_ptr<const KeptVolumes> VolumeCache::see(const CasterLayers& casters,
     found.seen = nullptr; // whose caps may be given up
     found.clipFromScene = clipFromScene;
     found.standingValue = standing;
-    if (auto seen = seenVolumes(found.volumes, clipFromScene, unseenCasters(casters, view, scene))) {
-        seen->inRounds = found.rounds;
-        found.seen = std::make_shared<const KeptVolumes>(std::move(*seen), nearOf(view.projection));
-    }
-    return found.seen;
+    return found.seen = seenVolumes(found.volumes, clipFromScene, nearOf(view.projection), found.rounds,
+                                    unseenCasters(casters, view, scene));
 }
 
 /// @return true if all volumes are those that were found before.

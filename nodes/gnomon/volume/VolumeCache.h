@@ -27,7 +27,7 @@ public:
     /// What a view sees of the volumes of all casters behind a light, found anew only where something changed.
     /// @param light  in the scene about the casters' origin, see lightInScene().
     /// @return       null if nothing can be seen.
-    std::shared_ptr<const KeptVolumes> see(const CasterLayers& casters, const ViewFrame& view, int lightNumber,
+    std::shared_ptr<const SeenVolumes> see(const CasterLayers& casters, const ViewFrame& view, int lightNumber,
                                            const glm::dvec4& light, const SceneFrame& scene);
     /// How often volumes were found.
     unsigned builds() const;
@@ -44,7 +44,7 @@ private:
         std::optional<ReceiverBox> receivers;            ///< the same as before while it fits.
         std::vector<osg::ref_ptr<LightVolumes>> volumes; ///< of each caster.
         osg::ref_ptr<const VolumeRounds> rounds;         ///< of these volumes.
-        std::shared_ptr<const KeptVolumes> seen;         ///< of them, last; null if nothing was.
+        std::shared_ptr<const SeenVolumes> seen;         ///< of them, last; null if nothing was.
         // What the receivers and what was seen were found for:
         glm::dvec3 origin{0.0}; ///< of the scene, group frame.
         osg::Matrixd eyeFromGroup;

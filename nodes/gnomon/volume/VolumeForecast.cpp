@@ -158,7 +158,8 @@ public:
     void count(const VolumeCaster& caster) {
         const osg::ref_ptr<LightVolumes> volumes = new LightVolumes;
         tbb::this_task_arena::isolate([&] { volumes->set(caster, _light, _receivers); });
-        const std::optional<SeenVolumes> seen = seenVolumes({volumes}, _clipFromScene);
+        constexpr double near = 1.0; // of vertices' steps, for which nobody asks
+        const std::shared_ptr<const SeenVolumes> seen = seenVolumes({volumes}, _clipFromScene, near);
         if (!seen) return;
         const glm::dmat4& clipFromMesh = seen->meshes.front().clipFromMesh;
         const std::vector<glm::dvec4> places = placesOf(volumes->volumes(), clipFromMesh);
