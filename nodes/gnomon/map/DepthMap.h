@@ -40,7 +40,7 @@ struct MapPicture : public osg::Referenced {
     struct Mesh {
         osg::ref_ptr<const CullableFaces> faces;
         glm::dmat4 sceneFromMesh{1.0};
-        MapBox box;          ///< in the scene.
+        AlignedBox box;      ///< in the scene.
         bool outside = true; ///< see CullableFaces::isOutside().
 
         bool operator==(const Mesh& other) const {

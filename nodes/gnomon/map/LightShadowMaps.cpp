@@ -182,7 +182,7 @@ MapPicture::Layer LightShadowMaps::drawnOf(const MapLayer& layer, bool again, Ma
     MapPicture::Layer drawn{&layer};
     for (std::size_t i = 0; i < layer.meshes.size(); ++i) {
         const PlacedMesh& placed = layer.casters->meshes[i];
-        const MapBox box = boxOf(placed, layer.casters->origin);
+        const AlignedBox box = boxOf(placed, layer.casters->origin);
         for (const MapCutout& cutout : layer.meshes[i]->cutouts)
             if (_faces.flatsCast() || !cutout.flat) drawn.cutouts.push_back(cutout);
         if (placed.selfDrawn || (placed.isBody && isFlat(box) && !_faces.flatsCast())) continue;
@@ -232,7 +232,7 @@ MapPicture::Tile LightShadowMaps::tileOf(const Face& face, const glm::ivec2& cor
 PixelRect LightShadowMaps::moversIn(const MapPicture::Tile& tile) const {
     const glm::dmat4 clipFromScene = tile.clipFromScene();
     glm::dvec2 low(1.0), high(-1.0);
-    const auto add = [&](const MapBox& box) {
+    const auto add = [&](const AlignedBox& box) {
         const auto corners = boxCorners(box.low, box.high, clipFromScene);
         const auto bounds = screenBounds(corners);
         if (!bounds) return;

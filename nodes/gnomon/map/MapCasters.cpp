@@ -43,7 +43,7 @@ inline double triangleDistance(const glm::dvec3& a, const glm::dvec3& b, const g
     return std::min({segmentDistance(a, b), segmentDistance(b, c), segmentDistance(c, a)});
 }
 
-double distance(const MapBox& box, const glm::dvec3& place) {
+double distance(const AlignedBox& box, const glm::dvec3& place) {
     return glm::distance(place, glm::clamp(place, box.low, box.high));
 }
 
@@ -120,7 +120,7 @@ std::vector<SelfDrawnCaster> selfDrawnCastersOf(const Casters& casters) {
 
 } // namespace
 
-bool isInMap(const MapBox& box, const glm::dmat4& clipFromScene) {
+bool isInMap(const AlignedBox& box, const glm::dmat4& clipFromScene) {
     const auto corners = boxCorners(box.low, box.high, clipFromScene);
     const auto allBeyond = [&](int axis, double sign) {
         return std::all_of(corners.begin(), corners.end(),
@@ -129,12 +129,12 @@ bool isInMap(const MapBox& box, const glm::dmat4& clipFromScene) {
     return !(allBeyond(0, 1.0) || allBeyond(0, -1.0) || allBeyond(1, 1.0) || allBeyond(1, -1.0));
 }
 
-bool isFlat(const MapBox& box) {
+bool isFlat(const AlignedBox& box) {
     const glm::dvec3 size = box.high - box.low;
     return std::min({size.x, size.y, size.z}) == 0.0;
 }
 
-MapBox boxOf(const PlacedMesh& placed, const osg::Vec3d& origin) {
+AlignedBox boxOf(const PlacedMesh& placed, const osg::Vec3d& origin) {
     const auto rounded = [](const osg::Vec3d& v) { return toGlm(osg::Vec3d(osg::Vec3(v))); };
     return {rounded(placed.bounds._min - origin), rounded(placed.bounds._max - origin)};
 }

@@ -2,6 +2,7 @@
 #pragma once
 #include <gnomon/casters/Casters.h>
 #include <gnomon/casters/CullableFaces.h>
+#include <gnomon/geometry/ShadowReach.h>
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
@@ -19,15 +20,11 @@
 
 namespace gnomon {
 
-/// A box of the scene.
-struct MapBox {
-    glm::dvec3 low, high;
-};
-/// In floats, as what is drawn: what is flat is so whatever its transform makes of the last bits.
-MapBox boxOf(const PlacedMesh& placed, const osg::Vec3d& origin);
-bool isFlat(const MapBox& box); ///< along an axis of the group.
+/// In the scene, in floats, as what is drawn: what is flat is so whatever its transform makes of the last bits.
+AlignedBox boxOf(const PlacedMesh& placed, const osg::Vec3d& origin);
+bool isFlat(const AlignedBox& box); ///< along an axis of the group.
 /// False if it is beyond a side of a map.
-bool isInMap(const MapBox& box, const glm::dmat4& clipFromScene);
+bool isInMap(const AlignedBox& box, const glm::dmat4& clipFromScene);
 
 /// What one texture cuts out by one test, drawn in one call; see AlphaTest.
 struct MapCutout {
@@ -39,7 +36,7 @@ struct MapCutout {
 };
 
 /// The box of a caster, and the triangles in it.
-struct MapPart : MapBox {
+struct MapPart : AlignedBox {
     const PlacedMesh* placed = nullptr; ///< null where only the box is known.
     std::size_t first = 0, end = 0;     ///< corners of its mesh's triangles.
 };
@@ -115,7 +112,7 @@ protected:
 struct SelfDrawnCaster {
     osg::ref_ptr<const SelfDrawing> drawing;
     glm::dmat4 sceneFromLocal{1.0};
-    MapBox box; ///< scene.
+    AlignedBox box; ///< scene.
 };
 
 /// What maps show of them, and the view whose frame they are drawn for. Programs find its modelview, and uniforms that

@@ -54,7 +54,7 @@ bool areSame(const LightFrame& a, const LightFrame& b) {
 }
 
 /// Half-space of what something flat can darken: what is beyond it, seen from the light.
-glm::dvec4 beyond(const MapBox& flat, const glm::dvec4& light, const glm::dvec3& reach) {
+glm::dvec4 beyond(const AlignedBox& flat, const glm::dvec4& light, const glm::dvec3& reach) {
     const glm::dvec3 size = flat.high - flat.low;
     const int axis = size.x == 0.0 ? 0 : size.y == 0.0 ? 1 : 2;
     const double level = flat.low[axis], side = light[axis] - light.w * level > 0.0 ? 1.0 : -1.0;
@@ -91,7 +91,7 @@ bool anyIsBetween(const MapCasters& casters, const glm::dvec4& light, const std:
 
 bool anyTouchesBehind(const MapCasters& casters, const glm::dvec4& light) {
     constexpr double close = 1e-3; // of the body's height over it
-    const auto touches = [&](const MapBox& flat, const MapBox& body) {
+    const auto touches = [&](const AlignedBox& flat, const AlignedBox& body) {
         const glm::dvec4 half = beyond(flat, light, casters.layers.reach);
         for (int axis = 0; axis < 3; ++axis)
             if (half[axis] == 0.0 && (body.low[axis] > flat.high[axis] || body.high[axis] < flat.low[axis]))
@@ -183,7 +183,7 @@ void MapFaces::findBlockers(Side& side) const {
 
 /// True of each body: all of them together may be thin where they are not, for one is very far away.
 bool MapFaces::areThin(const LightFrame& frame) const {
-    const auto isBoxThin = [&frame](const MapBox& box) {
+    const auto isBoxThin = [&frame](const AlignedBox& box) {
         MapOutline outline(frame);
         outline.addBox({box.low, box.high});
         return outline.empty() || isThin(frame, outline);

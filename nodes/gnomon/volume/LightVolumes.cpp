@@ -277,7 +277,7 @@ bool UnseenCasters::touch(const glm::dvec3& low, const glm::dvec3& high) const {
     };
     const double by = margin(low, high);
     const auto start = std::lower_bound(boxes.begin(), boxes.end(), low.x - by - widest,
-                                        [](const ReceiverBox& box, double x) { return box.low.x < x; });
+                                        [](const AlignedBox& box, double x) { return box.low.x < x; });
     for (auto box = start; box != boxes.end() && box->low.x <= high.x + by; ++box)
         if (glm::all(glm::lessThanEqual(box->low, high + by)) && glm::all(glm::greaterThanEqual(box->high, low - by)))
             return true;
@@ -299,7 +299,7 @@ UnseenCasters unseenCasters(const CasterLayers& casters, const ViewFrame& view, 
             groupFromLocal = &piece->groupFromLocal;
             if (drawn.hasAt(*piece->drawable, eyeFromLocal, 1e-14 * piece->groupFromLocal.getTrans().length()))
                 continue;
-            const ReceiverBox box{scene.point(piece->bounds._min), scene.point(piece->bounds._max)};
+            const AlignedBox box{scene.point(piece->bounds._min), scene.point(piece->bounds._max)};
             const auto corners = boxCorners(box.low, box.high, clipFromScene);
             if (!screenBounds(corners)) continue; // as out of sight
             unseen.boxes.push_back(box);

@@ -3,6 +3,7 @@
 #include <gnomon/ViewFrame.h>
 #include <gnomon/casters/CasterMesh.h>
 #include <gnomon/geometry/ScreenBounds.h>
+#include <gnomon/geometry/ShadowReach.h>
 #include <gnomon/gl/VolumeGeometry.h>
 #include <gnomon/group/SceneFrame.h>
 #include <gnomon/silhouette/ShadowVolumes.h>
@@ -39,7 +40,7 @@ ReceiverBox receiversOf(const ViewFrame& view, const SceneFrame& scene);
 
 /// Casters within a view that it does not draw: nothing is hidden behind them. Sorted boxes, in the scene.
 struct UnseenCasters {
-    std::vector<ReceiverBox> boxes;
+    std::vector<AlignedBox> boxes;
     double widest = 0.0; ///< along x.
 
     /// True if a box has a point in common with any of these, but for the rounding of floats.
