@@ -5,6 +5,7 @@
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ShadowQuery.h>
 #include <gnomon/TracedShadowTechnique.h>
+#include <gnomon/casters/CasterLayers.h>
 #include <gnomon/casters/RaySceneCache.h>
 
 #include <glm/geometric.hpp>

@@ -5,6 +5,7 @@
 #include <gnomon/Convert.h>
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/casters/CasterExtraction.h>
+#include <gnomon/casters/CasterLayers.h>
 #include <gnomon/casters/Casters.h>
 
 #include <glm/geometric.hpp>

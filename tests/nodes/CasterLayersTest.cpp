@@ -2,6 +2,7 @@
 // Casters in two layers: which of them is made anew when.
 #include "Scene.h"
 
+#include <gnomon/casters/CasterLayers.h>
 #include <gnomon/casters/CasterTable.h>
 #include <gnomon/casters/RaySceneCache.h>
 #include <gnomon/planar/PlanarCasters.h>

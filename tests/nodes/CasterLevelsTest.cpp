@@ -3,6 +3,7 @@
 #include "Scene.h"
 
 #include <gnomon/ShadowCasterGroup.h>
+#include <gnomon/casters/CasterLayers.h>
 #include <gnomon/casters/CasterTable.h>
 #include <gnomon/casters/Casting.h>
 

@@ -7,6 +7,7 @@
 
 #include <gnomon/ShadowMapTechnique.h>
 #include <gnomon/TracedShadowTechnique.h>
+#include <gnomon/casters/CasterLayers.h>
 #include <gnomon/casters/Casters.h>
 #include <gtest/gtest.h>
 #include <osg/AlphaFunc>

@@ -3,6 +3,7 @@
 #include <support/Picture.h>
 #include <support/Scene.h>
 
+#include <gnomon/casters/CasterLayers.h>
 #include <gnomon/casters/Casters.h>
 #include <gnomon/compositor/ShadowJob.h>
 #include <gnomon/group/SceneFrame.h>

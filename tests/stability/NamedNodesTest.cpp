@@ -2,6 +2,7 @@
 // Nodes that the kit names without keeping them: what is above the one that names it is freed, and copies name their own.
 #include <gnomon/PlanarReflectionNode.h>
 #include <gnomon/TerrainShadowGeode.h>
+#include <gnomon/casters/CasterLayers.h>
 #include <gnomon/casters/Casters.h>
 #include <gtest/gtest.h>
 #include <osg/MatrixTransform>

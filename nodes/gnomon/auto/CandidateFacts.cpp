@@ -3,6 +3,7 @@
 #include <gnomon/OptionalParts.h>
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/auto/CandidateFacts.h>
+#include <gnomon/casters/CasterLayers.h>
 #include <gnomon/casters/Casters.h>
 #include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/group/LitCauses.h>

@@ -5,6 +5,7 @@
 #include <gnomon/auto/CandidateFacts.h>
 #include <gnomon/auto/CandidateList.h>
 #include <gnomon/base/NumberText.h>
+#include <gnomon/casters/CasterLayers.h>
 #include <gnomon/compositor/DrawnLeaves.h>
 #include <gnomon/gl/TriangleClusters.h>
 #include <gnomon/mapfit/MapFit.h>

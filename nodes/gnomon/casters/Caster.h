@@ -57,6 +57,9 @@ constexpr std::size_t fewestOfABody = 256;
 /// True if it can be a body, which moves as a whole: large enough, of all its triangles, and not flattened by its transform.
 bool isBody(const Caster& piece);
 
+/// Casters, one for each drawable and path.
+using CasterList = std::vector<osg::ref_ptr<const Caster>>;
+
 /// A caster whose shape, or whose clear parts, only its own code, program or state knows, at one place in the graph. It
 /// never changes. drawsItself() and Caster::selfDrawn tell which drawables are such.
 ///

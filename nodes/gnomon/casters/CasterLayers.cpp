@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
+#include <gnomon/casters/CasterLayers.h>
 #include <gnomon/casters/Casters.h>
 #include <gnomon/casters/KnownCasters.h>
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/casters/CasterLayers.h>
 #include <gnomon/casters/CasterTable.h>
 
 #include <OpenThreads/ScopedLock>
@@ -90,7 +91,7 @@ void CasterTable::makeLayers(const Casters& casters) {
 void CasterTable::make(const Casters& casters) {
     Choice* entry = _choices.find([&](const Choice& known) { return known.casters.get() == &casters; });
     osg::ref_ptr<const Casters> from = layersKnownTo(entry ? entry->view : nullptr);
-    casters._layers = std::make_unique<const CasterLayers>(casters, from ? &from->layers() : nullptr, _known);
+    casters._layers = std::make_shared<const CasterLayers>(casters, from ? &from->layers() : nullptr, _known);
     casters._hasLayers = true;
     if (entry) entry->former = nullptr;
     from = nullptr;

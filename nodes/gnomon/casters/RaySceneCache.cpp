@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/ProgressLine.h>
+#include <gnomon/casters/CasterLayers.h>
 #include <gnomon/casters/RaySceneCache.h>
 
 #include <OpenThreads/ScopedLock>

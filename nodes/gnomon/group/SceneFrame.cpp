@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/casters/Casters.h>
 #include <gnomon/geometry/ScreenBounds.h>
 #include <gnomon/group/SceneFrame.h>
 

@@ -4,7 +4,7 @@
 #include <gnomon/Plane.h>
 #include <gnomon/ShadowLight.h>
 #include <gnomon/ViewFrame.h>
-#include <gnomon/casters/Casters.h>
+#include <gnomon/casters/CasterLayers.h>
 #include <gnomon/mapfit/MapFit.h>
 
 #include <glm/gtc/matrix_transform.hpp>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/casters/CasterLayers.h>
 #include <gnomon/casters/Casters.h>
 #include <gnomon/casters/CullableFaces.h>
 #include <gnomon/geometry/ShadowReach.h>

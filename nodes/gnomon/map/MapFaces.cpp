@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/casters/Casters.h>
+#include <gnomon/casters/CasterLayers.h>
 #include <gnomon/geometry/ScreenBounds.h>
 #include <gnomon/map/MapFaces.h>
 

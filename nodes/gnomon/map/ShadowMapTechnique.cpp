@@ -3,6 +3,7 @@
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ShadowMapTechnique.h>
 #include <gnomon/base/RecentCache.h>
+#include <gnomon/casters/CasterLayers.h>
 #include <gnomon/casters/Casters.h>
 #include <gnomon/geometry/DrawnError.h>
 #include <gnomon/geometry/ScreenBounds.h>

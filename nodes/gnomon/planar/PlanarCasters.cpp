@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
 #include <gnomon/Plane.h>
+#include <gnomon/casters/CasterLayers.h>
 #include <gnomon/casters/CullableFaces.h>
 #include <gnomon/geometry/ScreenBounds.h>
 #include <gnomon/group/SceneFrame.h>

@@ -2,6 +2,7 @@
 #include <gnomon/Convert.h>
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ShadowQuery.h>
+#include <gnomon/casters/CasterLayers.h>
 #include <gnomon/casters/RaySceneCache.h>
 #include <gnomon/group/SceneFrame.h>
 #include <gnomon/group/ShadowProbe.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Plane.h>
-#include <gnomon/casters/Casters.h>
+#include <gnomon/casters/CasterLayers.h>
 #include <gnomon/compositor/DrawnLeaves.h>
 #include <gnomon/geometry/Across.h>
 #include <gnomon/group/StageLeaves.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/casters/Casters.h>
+#include <gnomon/casters/CasterLayers.h>
 #include <gnomon/compositor/DrawnLeaves.h>
 #include <gnomon/gl/ShaderProgram.h>
 #include <gnomon/group/StageLeaves.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/base/Fingerprint.h>
+#include <gnomon/casters/CasterLayers.h>
 #include <gnomon/geometry/ScreenBounds.h>
 #include <gnomon/silhouette/ShadowVolumes.h>
 #include <gnomon/volume/LightVolumes.h>
