@@ -204,7 +204,7 @@ TEST(ShadowVolumes, OfABoxHaveTheSixSidesOfItsOutline) {
     gnomon::findShadowVolumes(mesh, {glm::normalize(glm::dvec3(1.0, 0.5, 1.0)), 0.0},
                               gnomon::endPlanes({-5.0, -5.0, 0.0}, {5.0, 5.0, 3.0}), volumes);
     EXPECT_EQ(volumes.parts[0].edges, 6u);
-    EXPECT_LE(volumes.parts[0].layers, 3u);
+    EXPECT_LE(volumes.parts[0].mostOver, 3u);
     EXPECT_EQ(volumes.corners.size(), 6u * 6u);
     EXPECT_EQ(volumes.vertices.size(), 2u * 6u);
 }

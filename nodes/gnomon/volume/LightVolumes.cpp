@@ -54,7 +54,7 @@ glm::dvec4 lightIn(const VolumeCaster& caster, const glm::dvec4& lightInScene) {
 }
 
 /// Where the volume of a part is across the light, in a plane of two coordinates of the scene; a lamp's are those of a globe.
-PrismLayers layersOf(const LightVolumes& of, unsigned index) {
+PrismLayers prismsOf(const LightVolumes& of, unsigned index) {
     const SilhouetteMesh::Part& part = of.caster().mesh->parts[index];
     const glm::dvec4& light = of.light();
     const glm::dmat4& sceneFromMesh = of.caster().sceneFromMesh;
@@ -62,27 +62,27 @@ PrismLayers layersOf(const LightVolumes& of, unsigned index) {
                                                      middle(sceneFromMesh * glm::dvec4((low + high) / 2.0, 1.0));
     glm::dvec3 reach(0.0); // of a box in the scene that holds that of the part
     for (int axis = 0; axis < 3; ++axis) reach += half[axis] * glm::abs(glm::dvec3(sceneFromMesh[axis]));
-    PrismLayers layers{glm::dvec2(-4.0), glm::dvec2(4.0), 1, of.volumes().parts[index].layers};
+    PrismLayers prisms{glm::dvec2(-4.0), glm::dvec2(4.0), 1, of.volumes().parts[index].mostOver};
     if (light.w == 0.0) {
         const auto [u, v] = across(glm::dvec3(light));
         const glm::dvec2 at(glm::dot(middle, u), glm::dot(middle, v)),
             aside(glm::dot(reach, glm::abs(u)), glm::dot(reach, glm::abs(v)));
-        layers.low = at - aside;
-        layers.high = at + aside;
-        return layers;
+        prisms.low = at - aside;
+        prisms.high = at + aside;
+        return prisms;
     }
     const glm::dvec3 away = awayFrom(light, middle);
     const double distance = glm::length(away), radius = glm::length(reach);
-    if (!(distance > radius)) return layers;
+    if (!(distance > radius)) return prisms;
     const double angle = std::asin(radius / distance), height = std::asin(std::clamp(away.z / distance, -1.0, 1.0));
-    layers.low.y = height - angle;
-    layers.high.y = height + angle;
-    if (std::abs(height) + angle >= glm::half_pi<double>()) return layers;
+    prisms.low.y = height - angle;
+    prisms.high.y = height + angle;
+    if (std::abs(height) + angle >= glm::half_pi<double>()) return prisms;
     const double turn = std::asin(std::sin(angle) / std::cos(height)), azimuth = std::atan2(away.y, away.x);
-    if (std::abs(azimuth) + turn > glm::pi<double>()) return layers;
-    layers.low.x = azimuth - turn;
-    layers.high.x = azimuth + turn;
-    return layers;
+    if (std::abs(azimuth) + turn > glm::pi<double>()) return prisms;
+    prisms.low.x = azimuth - turn;
+    prisms.high.x = azimuth + turn;
+    return prisms;
 }
 
 void append(std::vector<VolumeGeometry::Range>& ranges, const VolumeGeometry::Range& range) {
@@ -256,7 +256,7 @@ ReceiverBox ReceiverBox::grown() const {
 }
 
 /// Leaves that share a matrix mostly follow one another.
-ReceiverBox receiversOf(const ViewFrame& view, const SceneFrame& scene) {
+ReceiverBox receiverBoxOf(const ViewFrame& view, const SceneFrame& scene) {
     const osg::Matrixd sceneFromEye = scene.sceneFromEye(view);
     const osg::RefMatrix* known = nullptr;
     osg::Matrixd sceneFromBox;
@@ -403,8 +403,8 @@ std::vector<unsigned> roundsOf(std::vector<PrismLayers> tiles, unsigned capacity
 
 VolumeRounds::VolumeRounds(const std::vector<osg::ref_ptr<LightVolumes>>& all) {
     for (const osg::ref_ptr<LightVolumes>& volumes : all) {
-        _first.push_back(_layers.size());
-        for (unsigned i = 0; i < volumes->volumes().parts.size(); ++i) _layers.push_back(layersOf(*volumes, i));
+        _first.push_back(_prisms.size());
+        for (unsigned i = 0; i < volumes->volumes().parts.size(); ++i) _prisms.push_back(prismsOf(*volumes, i));
     }
 }
 
@@ -412,12 +412,12 @@ std::vector<unsigned> VolumeRounds::of(unsigned capacity) const {
     OpenThreads::ScopedLock<OpenThreads::Mutex> lock(_mutex);
     if (_capacity == capacity) return _rounds;
     _capacity = capacity;
-    return _rounds = roundsOf(_layers, capacity);
+    return _rounds = roundsOf(_prisms, capacity);
 }
 
 std::vector<unsigned> VolumeRounds::of(unsigned capacity, const std::vector<std::size_t>& parts) const {
     std::vector<PrismLayers> some;
-    for (const std::size_t part : parts) some.push_back(_layers[part]);
+    for (const std::size_t part : parts) some.push_back(_prisms[part]);
     return roundsOf(some, capacity);
 }
 
@@ -457,7 +457,7 @@ std::vector<VolumeRound> SeenVolumes::rounds(unsigned capacity) const {
 
 std::shared_ptr<const SeenVolumes::Counted> SeenVolumes::countedBy(unsigned capacity) const {
     OpenThreads::ScopedLock<OpenThreads::Mutex> lock(_mutex);
-    const auto passes = [&](const SeenPart& seen) { return volumeOf(*this, seen).layers > capacity; };
+    const auto passes = [&](const SeenPart& seen) { return volumeOf(*this, seen).mostOver > capacity; };
     if (_capacity != capacity)
         _counted =
             std::make_shared<const Counted>(Counted{rounds(capacity), std::any_of(parts.begin(), parts.end(), passes)});

@@ -36,7 +36,7 @@ struct ReceiverBox {
     bool operator==(const ReceiverBox& other) const { return low == other.low && high == other.high; }
 };
 
-ReceiverBox receiversOf(const ViewFrame& view, const SceneFrame& scene);
+ReceiverBox receiverBoxOf(const ViewFrame& view, const SceneFrame& scene);
 
 /// Casters within a view that it does not draw: nothing is hidden behind them. Sorted boxes, in the scene.
 struct UnseenCasters {
@@ -137,7 +137,7 @@ protected:
     ~VolumeRounds() override = default;
 
 private:
-    std::vector<PrismLayers> _layers; ///< of each part; how many of them hold one point at most.
+    std::vector<PrismLayers> _prisms; ///< of each part; how many of them hold one point at most.
     std::vector<std::size_t> _first;
     mutable OpenThreads::Mutex _mutex;
     mutable unsigned _capacity = 0; ///< which _rounds are for; 0: none yet.

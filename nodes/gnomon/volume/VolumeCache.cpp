@@ -41,7 +41,7 @@ std::shared_ptr<const SilhouetteMesh> edgesOf(const CasterMesh& mesh) {
     });
 }
 
-std::vector<VolumeCaster> castersOf(const CasterLayers& casters) {
+std::vector<VolumeCaster> volumeCastersOf(const CasterLayers& casters) {
     std::vector<VolumeCaster> all;
     for (const auto& layer : {casters.still, casters.moving})
         for (const PlacedMesh& placed : layer->meshes)
@@ -65,7 +65,7 @@ std::shared_ptr<const SeenVolumes> VolumeCache::see(const CasterLayers& casters,
     const bool sameReceivers = found.receivers && view.seenValue != 0 && found.seenValue == view.seenValue &&
                                found.origin == scene.origin && hasSameBits(found.eyeFromGroup, view.eyeFromGroup);
     if (!sameReceivers) {
-        const ReceiverBox receivers = receiversOf(view, scene);
+        const ReceiverBox receivers = receiverBoxOf(view, scene);
         if (!found.receivers)
             found.receivers = receivers;
         else if (!found.receivers->fits(receivers))
@@ -74,7 +74,7 @@ std::shared_ptr<const SeenVolumes> VolumeCache::see(const CasterLayers& casters,
         found.origin = scene.origin;
         found.eyeFromGroup = view.eyeFromGroup;
     }
-    const bool same = follow(found, castersOf(casters), light);
+    const bool same = follow(found, volumeCastersOf(casters), light);
     const glm::dmat4 clipFromScene = scene.clipFromScene(view);
     const std::uint64_t standing = view.drawn ? view.drawn->standingValue() : 0;
     if (same && sameReceivers && clipFromScene == found.clipFromScene && standing == found.standingValue)

@@ -131,7 +131,7 @@ class Forecaster {
 public:
     Forecaster(const ViewFrame& view, const SceneFrame& scene, const glm::dvec4& light)
         : _light(light),
-          _receivers(receiversOf(view, scene)),
+          _receivers(receiverBoxOf(view, scene)),
           _planes(endPlanes(_receivers.low, _receivers.high)),
           _clipFromScene(scene.clipFromScene(view)),
           _pixels(view.pixels.x(), view.pixels.y()) {}

@@ -149,8 +149,9 @@ unsigned stabbed(const std::vector<glm::dvec2>& ends, int axis) {
     return static_cast<unsigned>(most);
 }
 
-/// Not more layers of a part's volumes than half of the edges that any line across the light meets, along either of two axes.
-unsigned mostLayers(const SilhouetteMesh& mesh, const ShadowVolumes& volumes, std::size_t index) {
+/// Not more of a part's volumes hold one point than half of the edges that any line across the light meets, along either of two
+/// axes.
+unsigned mostOverOf(const SilhouetteMesh& mesh, const ShadowVolumes& volumes, std::size_t index) {
     const ShadowVolumes::Part& part = volumes.parts[index];
     const unsigned most = part.edges / 3 + 1;
     if (most <= 8) return most;
@@ -391,7 +392,7 @@ void findShadowVolumes(const SilhouetteMesh& mesh, const glm::dvec4& light, cons
     for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
         ShadowVolumes::Part& part = into.parts[i];
         part.end = nearestEnd(planes, glm::dvec3(mesh.parts[i].low), glm::dvec3(mesh.parts[i].high), light);
-        part.layers = std::max(1u, mostLayers(mesh, into, i));
+        part.mostOver = std::max(1u, mostOverOf(mesh, into, i));
         writer.add(static_cast<unsigned>(i));
     }
 }

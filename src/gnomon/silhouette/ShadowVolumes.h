@@ -28,7 +28,7 @@ struct ShadowVolumes {
         unsigned first = 0, count = 0;     ///< in `corners`.
         unsigned firstEdge = 0, edges = 0; ///< in `outline`.
         bool grazed = false;               ///< a side lies in the plane of a face that the light grazes.
-        unsigned layers = 0;               ///< not more of its volumes hold any one point.
+        unsigned mostOver = 0;             ///< not more of its volumes hold any one point.
         glm::dvec4 end{0.0};               ///< see nearestEnd().
     };
     /// An edge of the surface that casts, which is to its left as seen from the light.
