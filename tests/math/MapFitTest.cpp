@@ -126,7 +126,7 @@ TEST(MapOutline, HasSidesAndABodyAboutWhatIsInIt) {
             EXPECT_GT(glm::dot(side, glm::dvec4(-1.0, 2.0, 0.0, 1.0)), 0.0);
         }
         MapOutline again(frame); // from the scene's places back to the light's
-        for (const glm::dvec4& p : outline.body()) again.addBox({glm::dvec3(p) / p.w, glm::dvec3(p) / p.w});
+        for (const glm::dvec4& p : outline.corners3D()) again.addBox({glm::dvec3(p) / p.w, glm::dvec3(p) / p.w});
         EXPECT_NEAR(again.nearest, outline.nearest, 1e-12);
         EXPECT_NEAR(again.farthest, outline.farthest, 1e-12);
         EXPECT_NEAR(fitMap(frame, again, again, {0.0, 0.0, 1.0}).area(),

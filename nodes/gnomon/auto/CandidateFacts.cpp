@@ -163,8 +163,8 @@ MapEdges::MapEdges(const ShadowInView& shadow, const MapCasters& boxes, const Ma
         for (const PlacedTriangles& mesh : trianglesOf(boxes.layers)) seen.addMesh(mesh);
     else
         for (const MapLayer* layer : {boxes.still.get(), boxes.moving.get()})
-            for (const auto* some : {&layer->bodies, &layer->flats})
-                for (const MapPart& box : *some) seen.addCaster({box.low, box.high});
+            for (const auto* some : {&layer->unflats, &layer->flats})
+                for (const MapPiece& box : *some) seen.addCaster({box.low, box.high});
     const glm::dvec2 size = 0.5 * (forecast.bounds->high - forecast.bounds->low) * _pixels;
     _cell = size.x * size.y / (SeenEdges::columns * SeenEdges::rows);
     _places = seen.edges(&_contacts);

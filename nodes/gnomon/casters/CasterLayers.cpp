@@ -177,14 +177,14 @@ void CasterLayers::measure() {
     high = toGlm(bounds._max - origin);
     reach = glm::max(glm::abs(low), glm::abs(high));
     for (const auto& drawing : _casters.selfDrawings)
-        if (drawing->bounds.valid()) widest = widestBody = std::max(widest, 2.0 * drawing->bounds.radius());
+        if (drawing->bounds.valid()) widest = widestUnflat = std::max(widest, 2.0 * drawing->bounds.radius());
     double least = std::numeric_limits<double>::infinity();
     for (const auto& piece : _casters.list) {
         if (!piece->bounds.valid()) continue;
         widest = std::max(widest, 2.0 * piece->bounds.radius());
         const osg::Vec3f lowest(piece->bounds._min - origin), highest(piece->bounds._max - origin);
         const bool isFlat = lowest.x() == highest.x() || lowest.y() == highest.y() || lowest.z() == highest.z();
-        if (!isFlat) widestBody = std::max(widestBody, 2.0 * piece->bounds.radius());
+        if (!isFlat) widestUnflat = std::max(widestUnflat, 2.0 * piece->bounds.radius());
         const double ofPiece = roundingOf(*piece);
         rounding = std::max(rounding, ofPiece);
         least = std::min(least, ofPiece);

@@ -71,7 +71,7 @@ public:
     glm::dvec3 low{0.0}, high{0.0}; ///< bounds of all, about the origin.
     glm::dvec3 reach{0.0};          ///< half sides of a box about the origin that holds all.
     double widest = 0.0;            ///< diameter of a drawable. These count casters that draw themselves, too.
-    double widestBody = 0.0;        ///< the same without what is flat and level along two axes.
+    double widestUnflat = 0.0;      ///< the same without what is flat and level along two axes.
     double rounding = 0.0;          ///< of the vertices by their own floats, of most.
     double largestRounding = 0.0;   ///< see CasterExtraction::getRounding().
     osg::ref_ptr<const CasterLayer> still, moving; ///< never null.

@@ -22,7 +22,7 @@ namespace gnomon {
 namespace {
 
 using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
-using Parts = std::vector<MapPicture::Part>;
+using Windows = std::vector<MapPicture::Window>;
 
 constexpr int levels = 6;                               // blocks.frag and map_soft.frag know it, too
 constexpr int finest = 8, coarsest = 8 << (levels - 1); // texels on a side of a block
@@ -159,27 +159,27 @@ public:
         : _renderInfo(info), _state(*info.getState()), _picture(shown), _programs(of) {}
 
     /// @param all  of the texture is to be cleared, parts that no tile is in, too.
-    std::string drawStill(const Parts& parts, bool all) {
+    std::string drawStill(const Windows& windows, bool all) {
         if (all) {
             glDisable(GL_SCISSOR_TEST);
             glClear(GL_DEPTH_BUFFER_BIT);
             glEnable(GL_SCISSOR_TEST);
         }
-        for (const auto& part : all ? Parts() : parts) {
-            scissorTo(part.texels);
+        for (const auto& window : all ? Windows() : windows) {
+            scissorTo(window.texels);
             glClear(GL_DEPTH_BUFFER_BIT);
         }
-        return drawLayer(_picture.still, parts);
+        return drawLayer(_picture.still, windows);
     }
 
-    std::string drawMovers(const Parts& parts) {
-        const std::string cause = drawLayer(_picture.moving, parts);
+    std::string drawMovers(const Windows& windows) {
+        const std::string cause = drawLayer(_picture.moving, windows);
         if (!cause.empty()) return cause;
         for (const SelfDrawnCaster& caster : _picture.selfDrawn.casters) {
-            const auto isIn = [&](const MapPicture::Part& part) {
-                return isInMap(caster.box, part.tile->clipFromScene());
+            const auto isIn = [&](const MapPicture::Window& window) {
+                return isInMap(caster.box, window.tile->clipFromScene());
             };
-            if (std::none_of(parts.begin(), parts.end(), isIn)) continue;
+            if (std::none_of(windows.begin(), windows.end(), isIn)) continue;
             const SelfDrawnState applied(_state, _picture.selfDrawn, *caster.drawing);
             const MapState map;
             glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
@@ -187,24 +187,24 @@ public:
                 glEnable(GL_ALPHA_TEST);
                 glAlphaFunc(GL_GEQUAL, alpha);
             }
-            for (const MapPicture::Part& part : parts)
-                if (isIn(part)) drawSelfDrawn(caster, part);
+            for (const MapPicture::Window& window : windows)
+                if (isIn(window)) drawSelfDrawn(caster, window);
         }
         return "";
     }
 
 private:
-    std::string drawLayer(const MapPicture::Layer& layer, const Parts& parts) {
-        if (parts.empty()) return "";
+    std::string drawLayer(const MapPicture::Layer& layer, const Windows& windows) {
+        if (windows.empty()) return "";
         for (const bool smooth : {false, true}) {
             const auto isMeant = [smooth](const MapPicture::Mesh& mesh) { return mesh.faces->smooth == smooth; };
             if (std::none_of(layer.meshes.begin(), layer.meshes.end(), isMeant)) continue;
-            const bool byLamp = parts.front().tile->nearest > 0.0;
+            const bool byLamp = windows.front().tile->nearest > 0.0;
             _state.apply(smooth ? _programs.smoothCaster : byLamp ? _programs.casterByLamp : _programs.caster);
             if (!hasProgram(_state)) return noProgram;
-            for (const auto& part : parts) {
-                drawInto(part);
-                drawMeshes(layer, smooth, part.tile->clipFromScene());
+            for (const auto& window : windows) {
+                drawInto(window);
+                drawMeshes(layer, smooth, window.tile->clipFromScene());
             }
         }
         if (layer.cutouts.empty()) return "";
@@ -214,8 +214,8 @@ private:
         for (const MapCutout& cutout : layer.cutouts) {
             _state.applyTextureAttribute(0, cutout.texture);
             setUniform(_state, "alphaTest", glm::dvec2(cutout.passing, cutout.reference));
-            for (const auto& part : parts) {
-                drawInto(part);
+            for (const auto& window : windows) {
+                drawInto(window);
                 cutout.geometry->draw(_renderInfo);
             }
         }
@@ -234,26 +234,26 @@ private:
     }
 
     /// What is drawn next goes there.
-    void drawInto(const MapPicture::Part& part) {
-        glViewport(part.tile->corner.x, part.tile->corner.y, _picture.size, _picture.size);
-        scissorTo(part.texels);
-        setUniform(_state, "clipFromVertex", part.tile->clipFromScene());
-        setUniform(_state, "nearest", part.tile->nearest);
-        (part.tile->nearest > 0.0 ? glEnable : glDisable)(GL_CLIP_PLANE0);
+    void drawInto(const MapPicture::Window& window) {
+        glViewport(window.tile->corner.x, window.tile->corner.y, _picture.size, _picture.size);
+        scissorTo(window.texels);
+        setUniform(_state, "clipFromVertex", window.tile->clipFromScene());
+        setUniform(_state, "nearest", window.tile->nearest);
+        (window.tile->nearest > 0.0 ? glEnable : glDisable)(GL_CLIP_PLANE0);
     }
 
     /// By its own code, at what that costs in the view. The modelview is the view's, so that what goes by the eye, as
     /// tessellation may, looks as it does there.
-    void drawSelfDrawn(const SelfDrawnCaster& caster, const MapPicture::Part& part) {
+    void drawSelfDrawn(const SelfDrawnCaster& caster, const MapPicture::Window& window) {
         const glm::dmat4& eyeFromScene = _picture.selfDrawn.eyeFromScene;
-        const glm::dmat4 clipFromEye = part.tile->clipFromScene() * glm::inverse(eyeFromScene);
+        const glm::dmat4 clipFromEye = window.tile->clipFromScene() * glm::inverse(eyeFromScene);
         const auto refMatrix = [](const glm::dmat4& matrix) { return new osg::RefMatrix(toOsg(matrix)); };
-        glViewport(part.tile->corner.x, part.tile->corner.y, _picture.size, _picture.size);
-        scissorTo(part.texels);
+        glViewport(window.tile->corner.x, window.tile->corner.y, _picture.size, _picture.size);
+        scissorTo(window.texels);
         glMatrixMode(GL_PROJECTION);
         glLoadIdentity(); // else Mesa keeps a part of a perspective's inverse, and cuts elsewhere
         _state.applyProjectionMatrix(refMatrix(clipFromEye));
-        if (const double nearest = part.tile->nearest; nearest > 0.0 && !_state.getLastAppliedProgramObject()) {
+        if (const double nearest = window.tile->nearest; nearest > 0.0 && !_state.getLastAppliedProgramObject()) {
             const glm::dvec4 before = glm::row(clipFromEye, 3) - glm::dvec4(0.0, 0.0, 0.0, nearest);
             _state.applyModelViewMatrix(nullptr);
             glClipPlane(GL_CLIP_PLANE5, &before[0]); // unless the caster has as many planes of its own
@@ -338,7 +338,7 @@ std::string DepthMap::draw(osg::RenderInfo& renderInfo, Target& target, const Ma
     const MapState mapState;
     const bool sameMoving = target.shown && target.shown->hasSameMoving(picture);
     unsigned due = 0;
-    Parts still, moving;
+    Windows still, moving;
     std::vector<PixelRect> hidden, toHide; // by what moved, and by what moves
     for (const MapPicture::Tile& tile : picture.tiles) {
         const MapPicture::Tile* shown = target.shown ? target.shown->findStill(tile, picture) : nullptr;

@@ -32,7 +32,7 @@ struct MapPicture : public osg::Referenced {
         glm::dmat4 clipFromScene() const; ///< The map's clip space.
     };
     /// A tile, and what of it is drawn.
-    struct Part {
+    struct Window {
         const Tile* tile;
         PixelRect texels;
     };

@@ -48,7 +48,7 @@ const std::vector<glm::dvec4>& LightShadowMaps::find(const ViewFrame& view, cons
     _needed.clear();
     const glm::dmat4& clipFromScene = _faces.seen().clipFromScene;
     for (const Face& face : _faces.each)
-        for (const glm::dvec4& point : face.needed.body()) _needed.push_back(clipFromScene * point);
+        for (const glm::dvec4& point : face.needed.corners3D()) _needed.push_back(clipFromScene * point);
     return _needed;
 }
 
@@ -240,7 +240,7 @@ PixelRect LightShadowMaps::moversIn(const MapPicture::Tile& tile) const {
         high = glm::max(high, bounds->high);
     };
     const MapLayer& moving = *_faces.request().casters->moving;
-    std::for_each(moving.bodies.begin(), moving.bodies.end(), add);
+    std::for_each(moving.unflats.begin(), moving.unflats.end(), add);
     if (_faces.flatsCast()) std::for_each(moving.flats.begin(), moving.flats.end(), add);
     for (const SelfDrawnCaster& caster : _faces.request().casters->selfDrawn) add(caster.box);
     if (!(low.x <= high.x && low.y <= high.y)) return {};

@@ -50,15 +50,15 @@ double distance(const AlignedBox& box, const glm::dvec3& place) {
 double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
 /// To the nearest of its triangles that cast.
-double distanceOfTriangles(const MapPart& part, const glm::dvec3& lamp) {
-    const CasterMesh& mesh = *part.placed->mesh;
-    const double size = std::max({largest(lamp), largest(part.low), largest(part.high)});
+double distanceOfTriangles(const MapPiece& piece, const glm::dvec3& lamp) {
+    const CasterMesh& mesh = *piece.placed->mesh;
+    const double size = std::max({largest(lamp), largest(piece.low), largest(piece.high)});
     const auto from = [&](std::size_t i) {
         const osg::Vec3& vertex = (*mesh.vertices)[(*mesh.triangles)[i]];
-        return glm::dvec3(part.placed->sceneFromMesh * glm::dvec4(vertex.x(), vertex.y(), vertex.z(), 1.0)) - lamp;
+        return glm::dvec3(piece.placed->sceneFromMesh * glm::dvec4(vertex.x(), vertex.y(), vertex.z(), 1.0)) - lamp;
     };
     double nearest = infinity;
-    for (std::size_t i = part.first; i + 2 < part.end; i += 3) {
+    for (std::size_t i = piece.first; i + 2 < piece.end; i += 3) {
         const glm::dvec3 a = from(i), b = from(i + 1), c = from(i + 2), normal = glm::cross(b - a, c - a);
         if (std::abs(glm::dot(a, normal)) > inPlane * size * glm::length(normal))
             nearest = std::min(nearest, triangleDistance(a, b, c));
@@ -67,23 +67,23 @@ double distanceOfTriangles(const MapPart& part, const glm::dvec3& lamp) {
 }
 
 /// As it is drawn.
-MapPart partOf(const CasterMesh& mesh, std::size_t first, std::size_t end) {
-    MapPart part{{glm::dvec3(infinity), glm::dvec3(-infinity)}, nullptr, first, end};
+MapPiece pieceOf(const CasterMesh& mesh, std::size_t first, std::size_t end) {
+    MapPiece piece{{glm::dvec3(infinity), glm::dvec3(-infinity)}, nullptr, first, end};
     for (std::size_t i = first; i < end; ++i) {
         const glm::dvec3 vertex = toGlm(osg::Vec3d((*mesh.vertices)[(*mesh.triangles)[i]]));
-        part.low = glm::min(part.low, vertex);
-        part.high = glm::max(part.high, vertex);
+        piece.low = glm::min(piece.low, vertex);
+        piece.high = glm::max(piece.high, vertex);
     }
-    return part;
+    return piece;
 }
 
 /// Drawables that share a texture and a test, one after another.
 class CutoutBuilder {
 public:
-    void add(const CasterMesh& mesh, const CasterExtraction::Cutout& cutout, const MapPart& part) {
+    void add(const CasterMesh& mesh, const CasterExtraction::Cutout& cutout, const MapPiece& piece) {
         const auto first = mesh.vertices->begin() + static_cast<std::ptrdiff_t>(cutout.firstVertex);
         const auto places = static_cast<GLuint>(_vertices->size());
-        for (std::size_t i = part.first; i < part.end; ++i)
+        for (std::size_t i = piece.first; i < piece.end; ++i)
             _triangles->push_back((*mesh.triangles)[i] - cutout.firstVertex + places);
         _vertices->insert(_vertices->end(), first, first + static_cast<std::ptrdiff_t>(cutout.coordinates.size()));
         _coordinates->insert(_coordinates->end(), cutout.coordinates.begin(), cutout.coordinates.end());
@@ -149,15 +149,15 @@ MapMesh::MapMesh(const PlacedMesh& placed)
         const std::size_t first = mesh->drawn[i].first,
                           end = i + 1 < mesh->drawn.size() ? mesh->drawn[i + 1].first : mesh->triangles->size();
         if (first == end) continue;
-        parts.push_back(partOf(*mesh, first, end));
-        const bool flat = isFlat(parts.back());
+        pieces.push_back(pieceOf(*mesh, first, end));
+        const bool flat = isFlat(pieces.back());
         anyFlat = anyFlat || flat;
         const GLuint *begin = &mesh->triangles->front() + first, *behind = &mesh->triangles->front() + end;
         if (cutout != mesh->cutouts.end() && cutout->drawn == i) {
             const AlphaTest& test = cutout->test;
             if (!cutout->selfDrawn)
                 builders[{test.texture.get(), test.passing, test.sampledReference(), flat}].add(*mesh, *cutout,
-                                                                                                parts.back());
+                                                                                                pieces.back());
             ++cutout;
         } else {
             all.triangles->insert(all.triangles->end(), begin, behind);
@@ -212,7 +212,7 @@ void MapMeshes::releaseGLObjects(osg::State* state) const {
 }
 
 MapLayer::MapLayer(const CasterLayer& given, MapMeshes* known) : casters(&given) {
-    const auto add = [this](const MapPart& part) { (isFlat(part) ? flats : bodies).push_back(part); };
+    const auto add = [this](const MapPiece& piece) { (isFlat(piece) ? flats : unflats).push_back(piece); };
     if (!known)
         for (const auto& piece : casters->pieces)
             if (piece->bounds.valid())
@@ -221,23 +221,23 @@ MapLayer::MapLayer(const CasterLayer& given, MapMeshes* known) : casters(&given)
         const PlacedMesh& placed = casters->meshes[i];
         meshes.push_back(known->of(placed));
         if (placed.isBody) add({boxOf(placed, casters->origin), &placed, 0, placed.mesh->triangles->size()});
-        for (const MapPart& part : meshes.back()->parts) add({part, &placed, part.first, part.end});
+        for (const MapPiece& piece : meshes.back()->pieces) add({piece, &placed, piece.first, piece.end});
     }
-    for (auto* parts : {&bodies, &flats})
-        std::sort(parts->begin(), parts->end(), [](const auto& a, const auto& b) {
+    for (auto* pieces : {&unflats, &flats})
+        std::sort(pieces->begin(), pieces->end(), [](const auto& a, const auto& b) {
             return glm::distance(a.low, a.high) > glm::distance(b.low, b.high);
         });
 }
 
 double MapLayer::clearanceOf(const glm::dvec3& lamp) const {
-    std::vector<std::pair<double, const MapPart*>> nearestFirst;
-    for (const auto* parts : {&bodies, &flats})
-        for (const MapPart& part : *parts) nearestFirst.emplace_back(distance(part, lamp), &part);
+    std::vector<std::pair<double, const MapPiece*>> nearestFirst;
+    for (const auto* pieces : {&unflats, &flats})
+        for (const MapPiece& piece : *pieces) nearestFirst.emplace_back(distance(piece, lamp), &piece);
     std::sort(nearestFirst.begin(), nearestFirst.end());
     double nearest = infinity;
-    for (const auto& [atLeast, part] : nearestFirst) {
+    for (const auto& [atLeast, piece] : nearestFirst) {
         if (!(atLeast < nearest)) break;
-        nearest = std::min(nearest, part->placed ? distanceOfTriangles(*part, lamp) : atLeast);
+        nearest = std::min(nearest, piece->placed ? distanceOfTriangles(*piece, lamp) : atLeast);
     }
     return nearest;
 }

@@ -37,7 +37,7 @@ struct MapCutout {
 };
 
 /// The box of a caster, and the triangles in it.
-struct MapPart : AlignedBox {
+struct MapPiece : AlignedBox {
     const PlacedMesh* placed = nullptr; ///< null where only the box is known.
     std::size_t first = 0, end = 0;     ///< corners of its mesh's triangles.
 };
@@ -48,7 +48,7 @@ struct MapMesh : public osg::Referenced {
 
     const osg::ref_ptr<const CasterMesh> mesh; ///< held, so that its address cannot be taken by another.
     const bool isBody;
-    std::vector<MapPart> parts;     ///< of what is joined, each drawable.
+    std::vector<MapPiece> pieces;   ///< of what is joined, each drawable.
     std::vector<MapCutout> cutouts; ///< of these.
 
     /// Some of the triangles.
@@ -97,8 +97,8 @@ struct MapLayer : public osg::Referenced {
 
     const osg::ref_ptr<const CasterLayer> casters;
     std::vector<osg::ref_ptr<MapMesh>> meshes; ///< as the casters have them.
-    std::vector<MapPart> bodies;               ///< the drawables, about the origin, the largest first.
-    std::vector<MapPart> flats;                ///< those that are flat along an axis of the group.
+    std::vector<MapPiece> unflats;             ///< the drawables, about the origin, the largest first,
+    std::vector<MapPiece> flats;               ///< and those that are flat along an axis of the group.
 
     /// From a lamp about the origin to the nearest triangle; infinite if there is none. Triangles whose plane holds the lamp,
     /// to 10⁻⁶ of the coordinates, do not count: they cast nothing. Looks at the drawables that may be nearest.

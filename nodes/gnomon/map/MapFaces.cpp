@@ -78,7 +78,7 @@ bool isThin(const LightFrame& frame, const MapOutline& outline) {
 bool anyIsBetween(const MapCasters& casters, const glm::dvec4& light, const std::vector<PlacedBox>& receivers) {
     std::map<std::array<double, 3>, glm::dvec4> halves; // by the way; six at most
     for (const MapLayer* layer : {casters.still.get(), casters.moving.get()})
-        for (const MapPart& flat : layer->flats) {
+        for (const MapPiece& flat : layer->flats) {
             const glm::dvec4 half = beyond(flat, light, casters.layers.reach);
             glm::dvec4& known = halves.try_emplace(std::array{half.x, half.y, half.z}, half).first->second;
             known.w = std::max(known.w, half.w);
@@ -90,21 +90,22 @@ bool anyIsBetween(const MapCasters& casters, const glm::dvec4& light, const std:
 }
 
 bool anyTouchesBehind(const MapCasters& casters, const glm::dvec4& light) {
-    constexpr double close = 1e-3; // of the body's height over it
-    const auto touches = [&](const AlignedBox& flat, const AlignedBox& body) {
+    constexpr double close = 1e-3; // of the other's height over it
+    const auto touches = [&](const AlignedBox& flat, const AlignedBox& unflat) {
         const glm::dvec4 half = beyond(flat, light, casters.layers.reach);
         for (int axis = 0; axis < 3; ++axis)
-            if (half[axis] == 0.0 && (body.low[axis] > flat.high[axis] || body.high[axis] < flat.low[axis]))
+            if (half[axis] == 0.0 && (unflat.low[axis] > flat.high[axis] || unflat.high[axis] < flat.low[axis]))
                 return false;
-        const double low = glm::dot(half, glm::dvec4(body.low, 1.0)), high = glm::dot(half, glm::dvec4(body.high, 1.0));
+        const double low = glm::dot(half, glm::dvec4(unflat.low, 1.0)),
+                     high = glm::dot(half, glm::dvec4(unflat.high, 1.0));
         return std::abs(std::min(low, high)) <= close * std::abs(high - low) && std::max(low, high) > 0.0;
     };
     const MapLayer* layers[] = {casters.still.get(), casters.moving.get()};
     for (const MapLayer* of : layers)
-        for (const MapPart& flat : of->flats)
+        for (const MapPiece& flat : of->flats)
             for (const MapLayer* all : layers)
-                if (std::any_of(all->bodies.begin(), all->bodies.end(),
-                                [&](const MapPart& body) { return touches(flat, body); }))
+                if (std::any_of(all->unflats.begin(), all->unflats.end(),
+                                [&](const MapPiece& unflat) { return touches(flat, unflat); }))
                     return true;
     return false;
 }
@@ -149,17 +150,17 @@ bool MapFaces::haveSameSides(const CasterLayers& casters) const {
 
 MapFaces::Outlines MapFaces::outlinesOf(const MapLayer& layer, const LightFrame& frame) const {
     Outlines outlines{MapOutline(frame), {}};
-    for (const MapPart& body : layer.bodies) outlines.bodies.addBox({body.low, body.high});
+    for (const MapPiece& unflat : layer.unflats) outlines.unflats.addBox({unflat.low, unflat.high});
     if (!_flats) return outlines;
-    for (const MapPart& flat : layer.flats) {
+    for (const MapPiece& flat : layer.flats) {
         outlines.flats.emplace_back(frame);
         outlines.flats.back().addBox({flat.low, flat.high});
     }
     return outlines;
 }
 
-/// Skips what is empty, and what is flat and behind the bodies: it darkens nothing that they may not, but widens edges where it
-/// is far from where they are.
+/// Skips what is empty, and what is flat and behind all that is not: it darkens nothing that they may not, but widens edges where
+/// it is far from where they are.
 void MapFaces::findBlockers(Side& side) const {
     const bool wide = _request.isWide(side.frame);
     side.blockers.clear();
@@ -168,20 +169,20 @@ void MapFaces::findBlockers(Side& side) const {
     };
     const MapCasters& casters = *_request.casters;
     const Outlines moving = outlinesOf(*casters.moving, side.frame);
-    MapOutline bodies = side.still.bodies;
-    bodies.merge(moving.bodies);
-    for (const SelfDrawnCaster& caster : casters.selfDrawn) bodies.addBox({caster.box.low, caster.box.high});
-    if (wide || !areThin(side.frame)) add(bodies, {});
+    MapOutline unflats = side.still.unflats;
+    unflats.merge(moving.unflats);
+    for (const SelfDrawnCaster& caster : casters.selfDrawn) unflats.addBox({caster.box.low, caster.box.high});
+    if (wide || !areThin(side.frame)) add(unflats, {});
     const auto addFlats = [&](const Outlines& outlines, const MapLayer& layer) {
         for (std::size_t i = 0; i < outlines.flats.size(); ++i)
-            if (wide || !(bodies.isBefore(outlines.flats[i]) || isThin(side.frame, outlines.flats[i])))
+            if (wide || !(unflats.isBefore(outlines.flats[i]) || isThin(side.frame, outlines.flats[i])))
                 add(outlines.flats[i], {beyond(layer.flats[i], _request.light, casters.layers.reach)});
     };
     addFlats(side.still, *casters.still);
     addFlats(moving, *casters.moving);
 }
 
-/// True of each body: all of them together may be thin where they are not, for one is very far away.
+/// True of each that is not flat: all of them together may be thin where they are not, for one is very far away.
 bool MapFaces::areThin(const LightFrame& frame) const {
     const auto isBoxThin = [&frame](const AlignedBox& box) {
         MapOutline outline(frame);
@@ -189,7 +190,7 @@ bool MapFaces::areThin(const LightFrame& frame) const {
         return outline.empty() || isThin(frame, outline);
     };
     const MapCasters& casters = *_request.casters;
-    const auto &still = casters.still->bodies, &moving = casters.moving->bodies;
+    const auto &still = casters.still->unflats, &moving = casters.moving->unflats;
     return std::all_of(still.begin(), still.end(), isBoxThin) && std::all_of(moving.begin(), moving.end(), isBoxThin) &&
            std::all_of(casters.selfDrawn.begin(), casters.selfDrawn.end(),
                        [&](const auto& caster) { return isBoxThin(caster.box); });
@@ -313,9 +314,10 @@ double MapFaces::clearance() {
 
 glm::dvec3 MapFaces::reachOf(const Face& face) const {
     glm::dvec3 result(0.0);
-    for (const glm::dvec4& point : face.held.body()) result = glm::max(result, glm::abs(glm::dvec3(point) / point.w));
+    for (const glm::dvec4& point : face.held.corners3D())
+        result = glm::max(result, glm::abs(glm::dvec3(point) / point.w));
     const CasterLayers& layers = _request.casters->layers;
-    return glm::min(layers.reach, result + (_flats ? layers.widest : layers.widestBody));
+    return glm::min(layers.reach, result + (_flats ? layers.widest : layers.widestUnflat));
 }
 
 HalfSpaces MapFaces::placesOf(const Face& face) const {

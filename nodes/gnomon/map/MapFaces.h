@@ -32,20 +32,21 @@ struct SeenScene {
 /// True if what is flat, a ground for one, may stand between the light and a place that is seen: not if all of those are on the
 /// light's side of it, or in it. Of all that is level, each way, the one nearest to the light says so for all.
 bool anyIsBetween(const MapCasters& casters, const glm::dvec4& light, const std::vector<PlacedBox>& receivers);
-/// True if a body touches something flat on the side that is turned away from the light: a map lights it a little along there.
+/// True if what is not flat touches something flat on the side that is turned away from the light: a map lights it a little along
+/// there.
 bool anyTouchesBehind(const MapCasters& casters, const glm::dvec4& light);
 
 /// What the maps of one light must hold for one view: where the light, the casters and what is seen are, whatever was drawn before.
 class MapFaces {
 public:
-    /// What darkens the same places: all bodies, or something flat, a ground for one.
+    /// What darkens the same places: all that is not flat, or something flat, a ground for one.
     struct Blocker {
         MapOutline outline;    ///< of what it can darken, were all edges hard.
         HalfSpaces halfSpaces; ///< that hold what it can darken: what is flat darkens what is beyond it.
     };
     /// What a layer of the casters can darken.
     struct Outlines {
-        MapOutline bodies;             ///< all together.
+        MapOutline unflats;            ///< all together.
         std::vector<MapOutline> flats; ///< one by one, as in MapLayer::flats; none where they do not cast.
     };
     /// One direction that the light looks in, and what casts there.

@@ -331,7 +331,7 @@ HalfSpaces MapOutline::sides() const {
     return result;
 }
 
-std::vector<glm::dvec4> MapOutline::body() const {
+std::vector<glm::dvec4> MapOutline::corners3D() const {
     const glm::dmat4 sceneFromLight = glm::inverse(_frame.lightFromScene);
     std::vector<glm::dvec4> points;
     for (const glm::dvec2& corner : corners)

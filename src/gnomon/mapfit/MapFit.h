@@ -71,7 +71,7 @@ public:
     /// Half-spaces of the scene, the sides of the smallest rectangle about it: what is outside them has no place in it.
     HalfSpaces sides() const;
     /// The corners of all between nearest and farthest, homogeneous, in the scene.
-    std::vector<glm::dvec4> body() const;
+    std::vector<glm::dvec4> corners3D() const;
     /// Becomes the convex outline of both, of the same frame.
     void merge(const MapOutline& other);
     /// Cuts this outline to the other one, of the same frame; depths stay. One that is all on a line cuts nothing.
