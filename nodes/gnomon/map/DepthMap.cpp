@@ -197,7 +197,7 @@ private:
     std::string drawLayer(const MapPicture::Layer& layer, const Windows& windows) {
         if (windows.empty()) return "";
         for (const bool smooth : {false, true}) {
-            const auto isMeant = [smooth](const MapPicture::Mesh& mesh) { return mesh.faces->smooth == smooth; };
+            const auto isMeant = [smooth](const MapPicture::Mesh& mesh) { return mesh.triangles->smooth == smooth; };
             if (std::none_of(layer.meshes.begin(), layer.meshes.end(), isMeant)) continue;
             const bool byLamp = windows.front().tile->nearest > 0.0;
             _state.apply(smooth ? _programs.smoothCaster : byLamp ? _programs.casterByLamp : _programs.caster);
@@ -225,11 +225,11 @@ private:
     /// @param smooth  those that are, or the others.
     void drawMeshes(const MapPicture::Layer& layer, bool smooth, const glm::dmat4& clipFromScene) {
         for (const MapPicture::Mesh& mesh : layer.meshes) {
-            if (mesh.faces->smooth != smooth || !isInMap(mesh.box, clipFromScene)) continue;
+            if (mesh.triangles->smooth != smooth || !isInMap(mesh.box, clipFromScene)) continue;
             const glm::dmat4 clipFromMesh = clipFromScene * mesh.sceneFromMesh;
             setUniform(_state, "clipFromVertex", clipFromMesh);
             if (smooth) setUniform(_state, "light", lightOf(clipFromMesh));
-            mesh.faces->draw(_renderInfo, clipFromMesh, mesh.outside);
+            mesh.triangles->draw(_renderInfo, clipFromMesh, mesh.outside);
         }
     }
 

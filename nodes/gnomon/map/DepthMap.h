@@ -38,13 +38,13 @@ struct MapPicture : public osg::Referenced {
     };
     /// A mesh, or some of its triangles, at a place.
     struct Mesh {
-        osg::ref_ptr<const CullableFaces> faces;
+        osg::ref_ptr<const CullableFaces> triangles;
         glm::dmat4 sceneFromMesh{1.0};
         AlignedBox box;      ///< in the scene.
         bool outside = true; ///< see CullableFaces::isOutside().
 
         bool operator==(const Mesh& other) const {
-            return faces == other.faces && sceneFromMesh == other.sceneFromMesh && outside == other.outside;
+            return triangles == other.triangles && sceneFromMesh == other.sceneFromMesh && outside == other.outside;
         }
     };
     /// What is drawn of a layer of the casters. Two are equal if they look alike.

@@ -176,8 +176,8 @@ MapFit LightShadowMaps::fitOf(const Face& face) const {
     return fitMap(face.side->frame, face.held, most, {reserve, keptClear / _texels, thick});
 }
 
-/// Where nothing changes any more, as in a light's first picture: all faces, for where only those turned to the light are drawn,
-/// single texels at rims differ.
+/// Where nothing changes any more, as in a light's first picture: all triangles, for where only those turned to the light are
+/// drawn, single texels at rims differ.
 MapPicture::Layer LightShadowMaps::drawnOf(const MapLayer& layer, bool again, MapMeshes& meshes) const {
     MapPicture::Layer drawn{&layer};
     for (std::size_t i = 0; i < layer.meshes.size(); ++i) {
@@ -187,11 +187,11 @@ MapPicture::Layer LightShadowMaps::drawnOf(const MapLayer& layer, bool again, Ma
             if (_faces.flatsCast() || !cutout.flat) drawn.cutouts.push_back(cutout);
         if (placed.selfDrawn || (placed.isBody && isFlat(box) && !_faces.flatsCast())) continue;
         const bool moving = &layer == _faces.request().casters->moving;
-        const auto faces = meshes.facesOf(*layer.meshes[i], _faces.flatsCast(), again && !isSettled(), moving);
-        if (!faces) continue;
+        const auto triangles = meshes.trianglesOf(*layer.meshes[i], _faces.flatsCast(), again && !isSettled(), moving);
+        if (!triangles) continue;
         bool outside = false;
-        if (!isSettled()) outside = faces->isOutside(glm::inverse(placed.sceneFromMesh) * _faces.request().light);
-        drawn.meshes.push_back({faces, placed.sceneFromMesh, box, outside});
+        if (!isSettled()) outside = triangles->isOutside(glm::inverse(placed.sceneFromMesh) * _faces.request().light);
+        drawn.meshes.push_back({triangles, placed.sceneFromMesh, box, outside});
     }
     return drawn;
 }

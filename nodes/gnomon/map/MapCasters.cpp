@@ -160,16 +160,16 @@ MapMesh::MapMesh(const PlacedMesh& placed)
                                                                                                 pieces.back());
             ++cutout;
         } else {
-            all.triangles->insert(all.triangles->end(), begin, behind);
-            if (!flat) unflat.triangles->insert(unflat.triangles->end(), begin, behind);
+            all.corners->insert(all.corners->end(), begin, behind);
+            if (!flat) unflat.corners->insert(unflat.corners->end(), begin, behind);
         }
     }
     for (const auto& [key, builder] : builders) {
         const auto& [texture, passing, reference, flat] = key;
         cutouts.push_back({builder.geometry(), texture, passing, reference, flat});
     }
-    if (isBody || mesh->cutouts.empty()) all.triangles = mesh->triangles;
-    if (!anyFlat) unflat.triangles = all.triangles;
+    if (isBody || mesh->cutouts.empty()) all.corners = mesh->triangles;
+    if (!anyFlat) unflat.corners = all.corners;
 }
 
 osg::ref_ptr<MapMesh> MapMeshes::of(const PlacedMesh& placed) {
@@ -178,15 +178,15 @@ osg::ref_ptr<MapMesh> MapMeshes::of(const PlacedMesh& placed) {
     return known;
 }
 
-osg::ref_ptr<const CullableFaces> MapMeshes::facesOf(MapMesh& mesh, bool flats, bool again, bool moving) {
-    MapMesh::Faces& faces = flats && mesh.all.triangles != mesh.unflat.triangles ? mesh.all : mesh.unflat;
-    if (faces.triangles->empty()) return nullptr;
-    const bool solids = again || (moving && mesh.isBody && faces.drawn && _searched < mostSearched);
-    if (faces.drawn && (faces.solids || !solids)) return faces.drawn;
-    if (solids && mesh.isBody) _searched += faces.triangles->size() / 3;
-    faces.drawn = new CullableFaces(*mesh.mesh, faces.triangles, solids);
-    faces.solids = solids;
-    return faces.drawn;
+osg::ref_ptr<const CullableFaces> MapMeshes::trianglesOf(MapMesh& mesh, bool flats, bool again, bool moving) {
+    MapMesh::Triangles& triangles = flats && mesh.all.corners != mesh.unflat.corners ? mesh.all : mesh.unflat;
+    if (triangles.corners->empty()) return nullptr;
+    const bool solids = again || (moving && mesh.isBody && triangles.drawn && _searched < mostSearched);
+    if (triangles.drawn && (triangles.solids || !solids)) return triangles.drawn;
+    if (solids && mesh.isBody) _searched += triangles.corners->size() / 3;
+    triangles.drawn = new CullableFaces(*mesh.mesh, triangles.corners, solids);
+    triangles.solids = solids;
+    return triangles.drawn;
 }
 
 void MapMeshes::prune() {
@@ -197,8 +197,8 @@ void MapMeshes::prune() {
 template <class Act>
 void MapMeshes::forAll(const Act& act) const {
     for (const auto& [address, mesh] : _known) {
-        for (const auto& faces : {mesh->all.drawn, mesh->unflat.drawn})
-            if (faces) act(*faces);
+        for (const auto& triangles : {mesh->all.drawn, mesh->unflat.drawn})
+            if (triangles) act(*triangles);
         for (const MapCutout& cutout : mesh->cutouts) act(*cutout.geometry);
     }
 }

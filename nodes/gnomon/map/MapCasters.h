@@ -52,12 +52,12 @@ struct MapMesh : public osg::Referenced {
     std::vector<MapCutout> cutouts; ///< of these.
 
     /// Some of the triangles.
-    struct Faces {
-        osg::ref_ptr<osg::DrawElementsUInt> triangles; ///< may be empty.
+    struct Triangles {
+        osg::ref_ptr<osg::DrawElementsUInt> corners;   ///< may be empty.
         osg::ref_ptr<const CullableFaces> drawn{};     ///< null until they are asked for.
         bool solids = false;                           ///< what bounds solids is told apart.
     };
-    Faces all, unflat; ///< all that no texture cuts out; of it all but what is flat, as grounds are.
+    Triangles all, unflat; ///< all that no texture cuts out; of it all but what is flat, as grounds are.
 
 protected:
     ~MapMesh() override = default;
@@ -76,7 +76,7 @@ public:
     /// @param flats   what is flat is drawn, too.
     /// @param again   it has been drawn before, and so may be drawn often.
     /// @param moving  its layer's bodies move on: they will be drawn often though the layer is not.
-    osg::ref_ptr<const CullableFaces> facesOf(MapMesh& mesh, bool flats, bool again, bool moving);
+    osg::ref_ptr<const CullableFaces> trianglesOf(MapMesh& mesh, bool flats, bool again, bool moving);
     /// Lets go what nobody else has.
     void prune();
     void resizeGLObjectBuffers(unsigned maxSize) const;
