@@ -64,15 +64,16 @@ private:
 /// Meets casters, and knows those again that it is told of.
 class DrawableVisitor : public CasterVisitor {
 public:
-    DrawableVisitor(const Selection& casters, const Casters* before, const KnownCasters* others)
+    DrawableVisitor(const Selection& casters, const Casters* before, const KnownCasters* known)
         : CasterVisitor(casters),
-          _known(before ? before->list : _none),
-          _knownSelfDrawings(before ? before->selfDrawings : Casters::SelfDrawings()),
-          _knownLeftOut(before ? before->leftOut : std::string()),
-          _others(others) {}
+          _before(before ? before->list : _none),
+          _selfDrawingsBefore(before ? before->selfDrawings : Casters::SelfDrawings()),
+          _leftOutBefore(before ? before->leftOut : std::string()),
+          _known(known) {}
 
     bool changed() const {
-        return _changed || _same != _known.size() || _selfDrawings != _knownSelfDrawings || leftOut() != _knownLeftOut;
+        return _changed || _same != _before.size() || _selfDrawings != _selfDrawingsBefore ||
+               leftOut() != _leftOutBefore;
     }
     std::uint64_t fingerprint() const { return _fingerprint.value(); }
     /// Those that were met.
@@ -105,21 +106,21 @@ private:
     /// In the old order as a rule. Of what hands out no triangles, a list that is released counts as changed.
     void addSelfDrawing(const osg::Drawable& drawable, const Casting& casting, std::uint64_t placed) {
         const std::size_t place = _selfDrawings.size();
-        const SelfDrawing* known = place < _knownSelfDrawings.size() ? _knownSelfDrawings[place].get() : nullptr;
-        if (known && known->drawable != &drawable) known = nullptr;
-        unsigned edition = known ? known->edition : 0;
-        const bool isListed = known && !known->hasPiece && followsOf(drawable) == Follows::List;
-        if ((isListed && known->list.mayBeStale(drawable, _contexts)) || (known && known->images.haveOther()))
+        const SelfDrawing* before = place < _selfDrawingsBefore.size() ? _selfDrawingsBefore[place].get() : nullptr;
+        if (before && before->drawable != &drawable) before = nullptr;
+        unsigned edition = before ? before->edition : 0;
+        const bool isListed = before && !before->hasPiece && followsOf(drawable) == Follows::List;
+        if ((isListed && before->list.mayBeStale(drawable, _contexts)) || (before && before->images.haveOther()))
             ++edition;
         Fingerprint value;
         value.mix(SelfDrawing::fingerprintOf(drawable, placed, statesNow()));
         value.mix(std::uint64_t{edition});
         _fingerprint.mix(value.value());
-        if (known && known->fingerprint == value.value()) return _selfDrawings.push_back(_knownSelfDrawings[place]);
+        if (before && before->fingerprint == value.value()) return _selfDrawings.push_back(_selfDrawingsBefore[place]);
         const osg::ref_ptr<SelfDrawing> made = new SelfDrawing(getNodePath(), drawable, rootFromLocal(), casting);
         made->fingerprint = value.value();
         made->edition = edition;
-        if (known) made->list = known->list;
+        if (before) made->list = before->list;
         _selfDrawings.push_back(made);
     }
 
@@ -140,10 +141,10 @@ private:
     std::uint64_t contents(const osg::Drawable& drawable, const Casting& casting) {
         const Follows follows = followsOf(drawable);
         if (follows == Follows::Counts) return _contents = 0;
-        const Caster* known = _next < _known.size() ? _known[_next].get() : nullptr;
-        if (known && known->drawable != &drawable) known = nullptr;
-        if (follows == Follows::List && known && !known->list.mayBeStale(drawable, _contexts))
-            return _contents = known->contents;
+        const Caster* before = _next < _before.size() ? _before[_next].get() : nullptr;
+        if (before && before->drawable != &drawable) before = nullptr;
+        if (follows == Follows::List && before && !before->list.mayBeStale(drawable, _contexts))
+            return _contents = before->contents;
         const auto [read, isNew] = _read.try_emplace(&drawable);
         if (isNew) read->second = contentsOf(drawable, casting.looksAtAll());
         return _contents = read->second;
@@ -153,23 +154,23 @@ private:
                           std::uint64_t value) {
         if (!_changed && isAt(_next, value)) {
             ++_same;
-            return *_known[_next++];
+            return *_before[_next++];
         }
         startSelfDrawings();
         osg::ref_ptr<const Caster> piece = find(value);
-        if (!piece && _others && isOfLevels()) piece = _others->find(value);
+        if (!piece && _known && isOfLevels()) piece = _known->find(value);
         if (!piece) piece = make(drawable, value, geometry, casting);
         _met.push_back(piece);
         return *piece;
     }
 
     bool isAt(std::size_t place, std::uint64_t value) const {
-        return place < _known.size() && _known[place]->fingerprint == value;
+        return place < _before.size() && _before[place]->fingerprint == value;
     }
 
     /// Nothing is copied as long as nothing differs.
     void startSelfDrawings() {
-        if (!_changed) _met.assign(_known.begin(), _known.begin() + static_cast<std::ptrdiff_t>(_same));
+        if (!_changed) _met.assign(_before.begin(), _before.begin() + static_cast<std::ptrdiff_t>(_same));
         _changed = true;
     }
 
@@ -178,8 +179,8 @@ private:
     const Caster* find(std::uint64_t value) {
         if (!isAt(_next, value) && isAt(_next + 1, value)) ++_next;
         if (!isAt(_next, value)) {
-            const std::size_t place = _missed ? placeOf(value) : _known.size();
-            if (place == _known.size()) {
+            const std::size_t place = _missed ? placeOf(value) : _before.size();
+            if (place == _before.size()) {
                 ++_next;
                 _missed = true;
                 return nullptr;
@@ -187,14 +188,14 @@ private:
             _next = place;
         }
         _missed = false;
-        return _known[_next++].get();
+        return _before[_next++].get();
     }
 
     std::size_t placeOf(std::uint64_t value) {
         if (_places.empty())
-            for (std::size_t i = 0; i < _known.size(); ++i) _places.emplace(_known[i]->fingerprint, i);
+            for (std::size_t i = 0; i < _before.size(); ++i) _places.emplace(_before[i]->fingerprint, i);
         const auto found = _places.find(value);
-        return found == _places.end() ? _known.size() : found->second;
+        return found == _places.end() ? _before.size() : found->second;
     }
 
     osg::ref_ptr<const Caster> make(osg::Drawable& drawable, std::uint64_t fingerprint, std::uint64_t geometry,
@@ -210,8 +211,8 @@ private:
         piece->ofLevels = isOfLevels();
         if (casting.test && casting.test->texture)
             piece->casting.test->alphas = piece->alphas = alphasOf(*casting.test->texture);
-        if (_others && casting.clips.empty())
-            piece->bounds = _others->boundsOf(geometry, rootFromLocal(), piece->triangles);
+        if (_known && casting.clips.empty())
+            piece->bounds = _known->boundsOf(geometry, rootFromLocal(), piece->triangles);
         const bool isKnown = piece->bounds.valid(); // as a body, which has all its triangles
         if (isKnown) piece->casting.test.reset();
         DrawableBounds found(rootFromLocal());
@@ -255,17 +256,17 @@ private:
         const auto [known, isNew] = _alphas.try_emplace(&texture);
         if (!isNew) return known->second;
         const auto hasThem = [&texture](const auto& piece) { return piece->alphas && piece->alphas->isOf(texture); };
-        auto piece = _known.begin() + static_cast<std::ptrdiff_t>(std::min(_next, _known.size()));
-        if (piece == _known.end() || !hasThem(*piece)) piece = std::find_if(_known.begin(), _known.end(), hasThem);
-        known->second = piece != _known.end() ? (*piece)->alphas : TextureAlpha::of(texture);
+        auto piece = _before.begin() + static_cast<std::ptrdiff_t>(std::min(_next, _before.size()));
+        if (piece == _before.end() || !hasThem(*piece)) piece = std::find_if(_before.begin(), _before.end(), hasThem);
+        known->second = piece != _before.end() ? (*piece)->alphas : TextureAlpha::of(texture);
         return known->second;
     }
 
-    const CasterList _none, &_known;
-    const Casters::SelfDrawings _knownSelfDrawings;
-    const std::string _knownLeftOut;
+    const CasterList _none, &_before;
+    const Casters::SelfDrawings _selfDrawingsBefore;
+    const std::string _leftOutBefore;
     Casters::SelfDrawings _selfDrawings;
-    const KnownCasters* const _others;
+    const KnownCasters* const _known;
     CasterList _met;
     std::unordered_map<std::uint64_t, std::size_t> _places;
     std::unordered_map<const osg::Texture2D*, osg::ref_ptr<const TextureAlpha>> _alphas;
