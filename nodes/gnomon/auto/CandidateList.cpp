@@ -87,7 +87,7 @@ double denseTriangles(const Casters& casters) {
     return sum;
 }
 
-osg::ref_ptr<const MapCasters> partsOf(const Casters& casters) {
+osg::ref_ptr<const MapCasters> mapBoxesOf(const Casters& casters) {
     const CasterLayers& layers = casters.layers();
     return new MapCasters(casters, new MapLayer(*layers.still), new MapLayer(*layers.moving));
 }
@@ -343,7 +343,7 @@ private:
 
 std::optional<CandidateList> CandidateSearch::look(const ShadowInView& shadow, const Selection& receiver,
                                                    AutoKnowledge& known) {
-    if (_part == 0) _boxes = partsOf(shadow.casters);
+    if (_part == 0) _boxes = mapBoxesOf(shadow.casters);
     Lister lister(*this, shadow, receiver, known);
     switch (_part++) {
     case 0:

@@ -54,8 +54,8 @@ void addAbove(const osg::Node& node, Nodes& above) {
 }
 
 /// What lies under a selection, and where the scene begins.
-struct Part {
-    Part(const Selection& selection, const osg::Node& scene) : mask(selection.mask) {
+struct Selected {
+    Selected(const Selection& selection, const osg::Node& scene) : mask(selection.mask) {
         for (const auto& root : selection.roots()) roots.insert(root.get());
         addTops(scene, tops);
     }
@@ -75,19 +75,19 @@ struct Ways {
 /// Tells what lies under a selection, from below. Looks at each node once.
 class WaysUnder {
 public:
-    explicit WaysUnder(const Part& part) : _part(part) {}
+    explicit WaysUnder(const Selected& selected) : _selected(selected) {}
 
     Ways operator()(const osg::Node& node) {
         const auto [known, isNew] = _ways.insert({&node, {false, false}});
-        if (!isNew || !(node.getNodeMask() & _part.mask)) return known->second;
+        if (!isNew || !(node.getNodeMask() & _selected.mask)) return known->second;
         Ways ways;
-        const bool isRoot = _part.roots.count(&node) > 0;
+        const bool isRoot = _selected.roots.count(&node) > 0;
         if (isRoot)
             ways = {true, true};
-        else if (node.getNumParents() == 0 && _part.tops.count(&node) == 0)
+        else if (node.getNumParents() == 0 && _selected.tops.count(&node) == 0)
             ways = {true, false, true};
         else if (node.getNumParents() == 0)
-            ways = {_part.roots.empty(), _part.roots.empty()};
+            ways = {_selected.roots.empty(), _selected.roots.empty()};
         for (unsigned i = 0; !isRoot && i < node.getNumParents(); ++i) {
             const Ways way = (*this)(*node.getParent(i));
             ways.some = ways.some || way.some;
@@ -98,7 +98,7 @@ public:
     }
 
 private:
-    const Part& _part;
+    const Selected& _selected;
     std::unordered_map<const osg::Node*, Ways> _ways;
 };
 
@@ -110,18 +110,19 @@ class FoundBelow : public osg::NodeVisitor {
 public:
     /// @param only   visits these nodes alone; null: all. Must outlive this.
     /// @param first  one drawable is enough.
-    FoundBelow(const Part& part, const osg::Matrixd& eyeFromWorld, const Nodes* only = nullptr, bool first = false)
+    FoundBelow(const Selected& selected, const osg::Matrixd& eyeFromWorld, const Nodes* only = nullptr,
+               bool first = false)
         : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN),
-          _part(part),
+          _selected(selected),
           _only(only),
           _first(first),
           _eyeFromWorld(eyeFromWorld) {
         setNodeMaskOverride(~0u);
         Nodes above;
-        for (const osg::Node* root : part.roots) addTops(*root, above);
-        const auto isTop = [&part](const osg::Node* node) { return part.tops.count(node) > 0; };
+        for (const osg::Node* root : selected.roots) addTops(*root, above);
+        const auto isTop = [&selected](const osg::Node* node) { return selected.tops.count(node) > 0; };
         const bool fromRoots = !above.empty() && std::all_of(above.begin(), above.end(), isTop);
-        for (const osg::Node* start : fromRoots ? part.roots : part.tops)
+        for (const osg::Node* start : fromRoots ? selected.roots : selected.tops)
             for (osg::NodePath path : start->getParentalNodePaths()) {
                 path.pop_back();
                 _eyeFromHere = osg::computeLocalToWorld(path) * eyeFromWorld;
@@ -132,8 +133,8 @@ public:
     void apply(osg::Node& node) override {
         if (!isWanted(node)) return;
         const bool wasUnder = _isUnder;
-        _isUnder = wasUnder || _part.roots.empty() || _part.roots.count(&node) > 0;
-        const bool passes = !_isUnder || (node.getNodeMask() & _part.mask);
+        _isUnder = wasUnder || _selected.roots.empty() || _selected.roots.count(&node) > 0;
+        const bool passes = !_isUnder || (node.getNodeMask() & _selected.mask);
         if (const osg::Drawable* drawable = passes && _isUnder ? node.asDrawable() : nullptr)
             found.add(*drawable, _eyeFromHere);
         if (passes && !(_first && !found.empty())) traverse(node);
@@ -157,7 +158,7 @@ public:
 private:
     bool isWanted(const osg::Node& node) const { return !_only || _only->count(&node) > 0; }
 
-    const Part& _part;
+    const Selected& _selected;
     const Nodes* const _only;
     const bool _first;
     const osg::Matrixd _eyeFromWorld;
@@ -295,8 +296,8 @@ std::vector<DrawnLeaf> leavesIn(osgUtil::RenderBin& bin) {
 
 LeafSet receiversAmong(const std::vector<DrawnLeaf>& leaves, const Selection& receiver,
                        const osg::Matrixd& eyeFromWorld, const osg::Node& scene) {
-    const Part part(receiver, scene);
-    WaysUnder waysUnder(part);
+    const Selected selected(receiver, scene);
+    WaysUnder waysUnder(selected);
     LeafSet result;
     std::vector<const osgUtil::RenderLeaf*> open;
     Nodes above; // what leads to these
@@ -312,7 +313,7 @@ LeafSet receiversAmong(const std::vector<DrawnLeaf>& leaves, const Selection& re
         foreign = foreign || ways.foreign;
     }
     if (open.empty()) return result;
-    const osg::ref_ptr<FoundBelow> below = new FoundBelow(part, eyeFromWorld, foreign ? nullptr : &above);
+    const osg::ref_ptr<FoundBelow> below = new FoundBelow(selected, eyeFromWorld, foreign ? nullptr : &above);
     for (const osgUtil::RenderLeaf* leaf : open)
         if (below->found.hasAt(*leaf->_drawable, modelviewOf(*leaf))) result.insert(leaf);
     return result;
@@ -320,14 +321,14 @@ LeafSet receiversAmong(const std::vector<DrawnLeaf>& leaves, const Selection& re
 
 std::set<const osg::Drawable*>
 drawablesUnder(const Selection& selection, const std::vector<const osg::Drawable*>& drawables, const osg::Node& scene) {
-    const Part part(selection, scene);
-    WaysUnder waysUnder(part);
+    const Selected selected(selection, scene);
+    WaysUnder waysUnder(selected);
     osg::ref_ptr<FoundBelow> below; // null until it is asked for
     std::set<const osg::Drawable*> result;
     for (const osg::Drawable* drawable : drawables) {
         const Ways ways = waysUnder(*drawable);
         const bool isAsked = ways.isOpen() && ways.foreign;
-        if (isAsked && !below) below = new FoundBelow(part, {});
+        if (isAsked && !below) below = new FoundBelow(selected, {});
         if (isAsked ? below->found.has(*drawable) : ways.some) result.insert(drawable);
     }
     return result;
@@ -343,8 +344,8 @@ std::string whyMissing(const Selection& selection, const char* role, const osg::
         return std::string("the ") + role + " '" + selection.node->getName() +
                "' is not in this scene graph. Add it to the scene.";
     if (selection.node && !mayBeSeen(*selection.node, stage.getCamera())) return "";
-    const Part part(selection, from);
-    const osg::ref_ptr<FoundBelow> below = new FoundBelow(part, {}, nullptr, true);
+    const Selected selected(selection, from);
+    const osg::ref_ptr<FoundBelow> below = new FoundBelow(selected, {}, nullptr, true);
     if (!below->found.empty()) return "";
     const std::string name = selection.node ? " '" + nameOf(*selection.node) + "'" : "";
     return "nothing that is drawn is found under the " + (role + name) +
