@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
-#include <gnomon/base/PlacedBox.h>
+#include <gnomon/base/BoxAbout.h>
 #include <gnomon/casters/Caster.h>
 #include <gnomon/casters/CasterVisitor.h>
 #include <gnomon/casters/DrawableTriangles.h>
@@ -54,7 +54,7 @@ SelfDrawing::SelfDrawing(const osg::NodePath& path, const osg::Drawable& given, 
       states(statesAlong(path)),
       images(states),
       name(nameAlong(path)),
-      bounds(placedBox(given.getBoundingBox(), matrix)),
+      bounds(boxAbout(given.getBoundingBox(), matrix)),
       casting(what),
       hasPiece(hasTriangles(given) && !drawsItself(given)),
       byProgram(PathState(path).isProgrammed()),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/ShadowTechnique.h>
-#include <gnomon/base/PlacedBox.h>
+#include <gnomon/base/BoxAbout.h>
 #include <gnomon/effects/SubgraphCull.h>
 
 #include <osg/OcclusionQueryNode>
@@ -70,7 +70,7 @@ void SubgraphCull::apply(osg::OcclusionQueryNode& node) { apply(static_cast<osg:
 bool isSubgraphCull(const osg::NodeVisitor& visitor) { return dynamic_cast<const SubgraphCull*>(&visitor) != nullptr; }
 
 osg::BoundingBoxd boxOf(const osgUtil::RenderLeaf& leaf, const osg::Matrixd& frameFromLocal) {
-    return placedBox(leaf._drawable->getBoundingBox(), frameFromLocal);
+    return boxAbout(leaf._drawable->getBoundingBox(), frameFromLocal);
 }
 
 void includeInDepths(osgUtil::CullVisitor& cull, const osg::BoundingBoxd& inEye, bool near) {

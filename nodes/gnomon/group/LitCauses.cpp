@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
 #include <gnomon/RayScene.h>
-#include <gnomon/base/PlacedBox.h>
+#include <gnomon/base/BoxAbout.h>
 #include <gnomon/casters/CasterMesh.h>
 #include <gnomon/casters/RaySceneCache.h>
 #include <gnomon/compositor/DrawnLeaves.h>
@@ -72,7 +72,7 @@ std::vector<osg::BoundingBoxd> boxesOf(const CastersInView& seen, const CastingN
     for (const osgUtil::RenderLeaf* leaf : seen.receivers) {
         const osg::BoundingBox& box = leaf->_drawable->getBoundingBox();
         if (!box.valid() || left.count(leaf->_drawable)) continue;
-        boxes.push_back(placedBox(box, modelviewOf(*leaf) * groupFromEye));
+        boxes.push_back(boxAbout(box, modelviewOf(*leaf) * groupFromEye));
     }
     const auto larger = [](const auto& a, const auto& b) { return a.radius() > b.radius(); };
     std::sort(boxes.begin(), boxes.end(), larger);
@@ -210,7 +210,7 @@ struct Placed {
         return apart <= 1e-6 * inGroup.radius(); // one matrix came by way of the eye
     }
     osg::BoundingBoxd in(const osg::Matrixd& frameFromGroup) const {
-        return placedBox(drawable->getBoundingBox(), groupFromLocal * frameFromGroup);
+        return boxAbout(drawable->getBoundingBox(), groupFromLocal * frameFromGroup);
     }
 };
 
@@ -221,7 +221,7 @@ std::vector<Placed> placed(const Leaves& leaves, const osg::Matrixd& groupFromEy
         const osg::BoundingBox& box = leaf->_drawable->getBoundingBox();
         if (!box.valid()) continue;
         const osg::Matrixd groupFromLocal = modelviewOf(*leaf) * groupFromEye;
-        result.push_back({leaf->_drawable.get(), groupFromLocal, placedBox(box, groupFromLocal), leaf});
+        result.push_back({leaf->_drawable.get(), groupFromLocal, boxAbout(box, groupFromLocal), leaf});
     }
     return result;
 }

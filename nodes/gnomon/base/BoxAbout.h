@@ -6,7 +6,7 @@
 namespace gnomon {
 
 /// The box about a box in another frame; invalid if that is.
-inline osg::BoundingBoxd placedBox(const osg::BoundingBox& box, const osg::Matrixd& frameFromLocal) {
+inline osg::BoundingBoxd boxAbout(const osg::BoundingBox& box, const osg::Matrixd& frameFromLocal) {
     osg::BoundingBoxd inFrame;
     for (unsigned i = 0; box.valid() && i < 8; ++i) inFrame.expandBy(osg::Vec3d(box.corner(i)) * frameFromLocal);
     return inFrame;
