@@ -51,10 +51,10 @@ private:
 };
 
 /// Where on the screen any of the leaves can draw; nullopt if nowhere.
-std::optional<ScreenRect> boundsOf(const std::vector<DrawnLeaf>& leaves) {
+std::optional<ScreenRect> screenBoundsOf(const std::vector<DrawnLeaf>& leaves) {
     std::optional<ScreenRect> all;
     for (const DrawnLeaf& entry : leaves)
-        if (const auto bounds = screenBoundsOf(*entry.leaf)) all = all ? united(*all, *bounds) : *bounds;
+        if (const auto bounds = gnomon::screenBoundsOf(*entry.leaf)) all = all ? united(*all, *bounds) : *bounds;
     return all;
 }
 
@@ -75,7 +75,7 @@ void ReflectionEffect::prepare(osgUtil::RenderStage& stage, const std::vector<Dr
     if (_surface.empty()) {
         report(whyMissing(surface, "surface", *node, stage));
     }
-    const auto bounds = boundsOf(_surface);
+    const auto bounds = screenBoundsOf(_surface);
     if (!bounds) return _surface.clear();
     _bounds = *bounds;
     _leaves = mirrored->sortedLeaves();

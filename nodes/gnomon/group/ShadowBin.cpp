@@ -140,11 +140,11 @@ void addMarks(FrameWork& work, const std::vector<ShadowJob>& jobs, std::size_t f
 }
 
 /// Where leaves can be seen.
-std::optional<ScreenRect> boundsOf(const Leaves& leaves, const ViewPrograms& programs) {
+std::optional<ScreenRect> screenBoundsOf(const Leaves& leaves, const ViewPrograms& programs) {
     std::optional<ScreenRect> all;
     for (const osgUtil::RenderLeaf* leaf : leaves)
         if (const std::optional<ScreenRect> place =
-                isFilled(*leaf) && !programs.moves(*leaf) ? screenBoundsOf(*leaf) : wholeScreen)
+                isFilled(*leaf) && !programs.moves(*leaf) ? gnomon::screenBoundsOf(*leaf) : wholeScreen)
             all = all ? united(*all, *place) : *place;
     return all;
 }
@@ -178,7 +178,7 @@ std::vector<ReceiverPart> partsOf(const Leaves& leaves, const StageLeaves& drawn
     std::vector<ReceiverPart> parts;
     for (auto& [placement, those] : byPlacement) {
         const bool apart = late || byPlacement.size() > 1;
-        const std::optional<ScreenRect> within = apart ? boundsOf(those, drawn.programs) : wholeScreen;
+        const std::optional<ScreenRect> within = apart ? screenBoundsOf(those, drawn.programs) : wholeScreen;
         parts.push_back({std::move(those), placement, late, !apart && !named, within});
     }
     return parts;

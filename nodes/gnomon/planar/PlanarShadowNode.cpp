@@ -165,7 +165,7 @@ double heightLimit(const PlanarClipPlanes& clip, const glm::dvec4& plane) {
 }
 
 /// Where on the screen the flattened casters can lie.
-std::optional<ScreenRect> boundsOf(const PlanarMark& mark) {
+std::optional<ScreenRect> screenBoundsOf(const PlanarMark& mark) {
     std::vector<glm::dvec4> halfSpaces;
     if (mark.casters->crosses) halfSpaces.push_back(mark.abovePlane);
     if (mark.reachesLight) halfSpaces.push_back(mark.belowLight);
@@ -255,7 +255,7 @@ osg::ref_ptr<Mark> PlanarShadowNode::prepareOne(const ViewFrame& view, const Sha
     mark->reachesLight = heightLimit(clip, casters.plane) < casters.highest;
     mark->mirrored = isMirrored(view);
     const auto eyePlane = transformedPlane(toGlm(view.eyeFromGroup), groupPlane);
-    const auto bounds = boundsOf(*mark);
+    const auto bounds = screenBoundsOf(*mark);
     const auto depthAt = [&](double height) {
         return depthOnScreen(casters.plane - glm::dvec4(0.0, 0.0, 0.0, height), clipFromScene);
     };
