@@ -292,6 +292,7 @@ TEST(Casters, KnowAnImageThatIsGone) {
     const auto before = leaf.pieces();
     EXPECT_EQ(before->cutouts, 0u);
     const osg::observer_ptr<osg::Image> image = texture->getImage();
+    texture->setTextureSize(8, 4); // as the image's: drawing sets it
     texture->setImage(nullptr);
     EXPECT_FALSE(image.valid()) << "it takes memory";
     EXPECT_EQ(leaf.pieces(before), before);

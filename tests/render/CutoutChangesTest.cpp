@@ -6,15 +6,18 @@
 
 #include <gnomon/AutoShadowTechnique.h>
 #include <gnomon/ShadowMapTechnique.h>
+#include <gnomon/ShadowVolumeTechnique.h>
 #include <osg/AlphaFunc>
 #include <osg/Camera>
 #include <osg/Geometry>
 #include <osg/Material>
+#include <osg/Notify>
 #include <osg/Program>
 #include <osg/TexEnv>
 #include <osg/TexGen>
 #include <osg/TexMat>
 #include <osg/Texture2D>
+#include <osg/TextureCubeMap>
 
 #include <gtest/gtest.h>
 
@@ -258,13 +261,30 @@ TEST(CutoutChanges, OfATextureThatACallbackFillsAreSeenInEveryFrame) {
     Plate plate;
     plate.testAlpha();
     const osg::ref_ptr<osg::Texture2D> texture = halfTexture(false);
+    texture->setImage(nullptr);
     const osg::ref_ptr<Filling> filling = new Filling;
     texture->setSubloadCallback(filling);
+    EXPECT_EQ(plate.wrong(isAll), 0); // so that nothing of the texture is compiled before its first frame
     plate.state().setTextureAttributeAndModes(0, texture);
     EXPECT_EQ(plate.wrong(isLeft), 0);
     filling->right = true;
     EXPECT_EQ(plate.wrong(isRight), 0);
 }
+
+namespace {
+
+/// A camera that fills it with its clear colour.
+osg::ref_ptr<osg::Camera> cameraInto(osg::Texture2D& texture) {
+    osg::ref_ptr<osg::Camera> into = new osg::Camera;
+    into->setRenderOrder(osg::Camera::PRE_RENDER);
+    into->setRenderTargetImplementation(osg::Camera::FRAME_BUFFER_OBJECT);
+    into->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
+    into->setViewport(0, 0, 16, 16);
+    into->attach(osg::Camera::COLOR_BUFFER, &texture);
+    return into;
+}
+
+} // namespace
 
 TEST(CutoutChanges, OfATextureThatIsRenderedToAreSeenInEveryFrame) {
     Plate plate;
@@ -273,16 +293,100 @@ TEST(CutoutChanges, OfATextureThatIsRenderedToAreSeenInEveryFrame) {
     texture->setTextureSize(16, 16);
     texture->setInternalFormat(GL_RGBA);
     texture->setFilter(osg::Texture::MIN_FILTER, osg::Texture::NEAREST);
-    const osg::ref_ptr<osg::Camera> into = new osg::Camera;
-    into->setRenderOrder(osg::Camera::PRE_RENDER);
-    into->setRenderTargetImplementation(osg::Camera::FRAME_BUFFER_OBJECT);
-    into->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
-    into->setViewport(0, 0, 16, 16);
-    into->attach(osg::Camera::COLOR_BUFFER, texture);
-    into->setClearColor(osg::Vec4(1.0f, 1.0f, 1.0f, 1.0f));
+    const osg::ref_ptr<osg::Camera> into = cameraInto(*texture);
+    EXPECT_EQ(plate.wrong(isAll), 0); // so that nothing of the texture is compiled before its first frame
     plate.scene.root->addChild(into);
     plate.state().setTextureAttributeAndModes(0, texture);
-    EXPECT_EQ(plate.wrong(isAll), 0);
-    into->setClearColor(osg::Vec4(1.0f, 1.0f, 1.0f, 0.0f));
-    EXPECT_EQ(plate.wrong(isNone), 0);
+    for (int i = 0; i < 3; ++i) {
+        into->setClearColor(osg::Vec4(1.0f, 1.0f, 1.0f, float(i % 2)));
+        EXPECT_EQ(plate.wrong(i % 2 ? isAll : isNone), 0);
+    }
+}
+
+// As where a file was not found. OpenGL draws without it; nothing changes, so nothing is drawn again.
+TEST(CutoutChanges, OfATextureThatHoldsNothingAreNone) {
+    const osg::ref_ptr<osg::Image> noData = new osg::Image;
+    for (const bool programmed : {false, true})
+        for (const osg::ref_ptr<osg::Image>& image : {osg::ref_ptr<osg::Image>(), noData}) {
+            const osg::ref_ptr<gnomon::ShadowMapTechnique> map = new gnomon::ShadowMapTechnique;
+            Plate plate(map);
+            if (programmed)
+                plate.state().setAttribute(fragmentProgram(program));
+            else
+                plate.testAlpha();
+            const osg::ref_ptr<osg::Texture2D> texture = halfTexture(false);
+            texture->setImage(image);
+            plate.state().setTextureAttributeAndModes(0, texture);
+            for (int frame = 0; frame < 8; ++frame) EXPECT_EQ(plate.wrong(isAll), 0);
+            const unsigned passes = map->passes();
+            EXPECT_EQ(plate.wrong(isAll), 0);
+            EXPECT_EQ(plate.wrong(isAll), 0);
+            EXPECT_EQ(map->passes(), passes) << "it stands still";
+            if (!programmed) EXPECT_EQ(map->diagnose(), std::vector<std::string>());
+            texture->setImage(halfImage(false));
+            EXPECT_EQ(plate.wrong(isLeft), 0);
+        }
+}
+
+// OpenSceneGraph gives it the size of the camera's viewport in the first frame.
+TEST(CutoutChanges, OfATextureWithoutASizeThatIsRenderedToAreSeenInEveryFrame) {
+    for (const bool programmed : {false, true}) {
+        Plate plate;
+        if (programmed)
+            plate.state().setAttribute(fragmentProgram(program));
+        else
+            plate.testAlpha();
+        const osg::ref_ptr<osg::Texture2D> texture = halfTexture(false);
+        texture->setImage(nullptr);
+        texture->setInternalFormat(GL_RGBA);
+        const osg::ref_ptr<osg::Camera> into = cameraInto(*texture);
+        into->setClearColor(osg::Vec4(1.0f, 1.0f, 1.0f, 1.0f));
+        plate.scene.root->addChild(into);
+        plate.state().setTextureAttributeAndModes(0, texture);
+        EXPECT_EQ(plate.wrong(isAll), 0);
+        EXPECT_EQ(plate.wrong(isAll), 0);
+        into->setClearColor(osg::Vec4(1.0f, 1.0f, 1.0f, 0.0f));
+        EXPECT_EQ(plate.wrong(isNone), 0);
+    }
+}
+
+TEST(CutoutChanges, OfATextureThatHoldsNothingAreNoneToVolumesEither) {
+    for (const osg::ref_ptr<osg::Image>& image :
+         {osg::ref_ptr<osg::Image>(), osg::ref_ptr<osg::Image>(new osg::Image)}) {
+        Plate plate(new gnomon::ShadowVolumeTechnique);
+        plate.testAlpha();
+        plate.state().setTextureAttributeAndModes(0, new osg::Texture2D(image));
+        EXPECT_EQ(plate.wrong(isAll), 0);
+        EXPECT_EQ(plate.technique->diagnose(), std::vector<std::string>());
+    }
+}
+
+TEST(CutoutChanges, OfATextureThatOpenGlHoldsThoughItHasNoImageStay) {
+    Plate plate;
+    plate.testAlpha();
+    const osg::ref_ptr<osg::Texture2D> texture = halfTexture(false);
+    plate.state().setTextureAttributeAndModes(0, texture);
+    EXPECT_EQ(plate.wrong(isLeft), 0);
+    texture->setImage(nullptr);
+    texture->setTextureSize(0, 0);
+    EXPECT_EQ(plate.wrong(isLeft), 0);
+}
+
+TEST(CutoutChanges, OfATextureWithoutImagesMakeOpenSceneGraphSayNothing) {
+    struct Listener : osg::NotifyHandler {
+        void notify(osg::NotifySeverity, const char* text) override { heard += text; }
+        std::string heard;
+    };
+    for (const osg::ref_ptr<osg::Texture>& texture :
+         {osg::ref_ptr<osg::Texture>(new osg::Texture2D), osg::ref_ptr<osg::Texture>(new osg::TextureCubeMap)}) {
+        Plate plate;
+        plate.testAlpha();
+        plate.state().setTextureAttributeAndModes(0, texture);
+        const osg::ref_ptr<osg::NotifyHandler> before = osg::getNotifyHandler();
+        const osg::ref_ptr<Listener> listener = new Listener;
+        osg::setNotifyHandler(listener);
+        EXPECT_EQ(plate.wrong(isAll), 0);
+        osg::setNotifyHandler(before);
+        EXPECT_EQ(listener->heard.find("pixelFormat"), std::string::npos) << listener->heard;
+    }
 }

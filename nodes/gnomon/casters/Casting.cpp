@@ -129,6 +129,7 @@ bool hasAlpha(const osg::Texture& texture) {
     constexpr GLenum without[] = {GL_LUMINANCE, GL_RED, GL_RG, GL_RGB8, GL_LUMINANCE8};
     const osg::Image* image = texture.getImage(0);
     const auto format = image ? image->getPixelFormat() : GLenum(texture.getInternalFormat());
+    if (format == 0) return true; // nobody knows yet
     return osg::Image::computeNumComponents(format) != 3 &&
            std::find(std::begin(without), std::end(without), format) == std::end(without);
 }
@@ -141,7 +142,7 @@ Effect effectOf(const PathState& state, unsigned unit) {
     const auto kind =
         std::find_if(std::begin(kinds), std::end(kinds), [&](GLenum each) { return state.isTextureOn(unit, each); });
     const auto* texture = dynamic_cast<const osg::Texture*>(state.textureAttribute(A::TEXTURE, unit));
-    if (kind == std::end(kinds) || !texture || !hasAlpha(*texture)) return Effect::None;
+    if (kind == std::end(kinds) || !texture || holdsNothing(*texture) || !hasAlpha(*texture)) return Effect::None;
     const osg::StateAttribute* attribute = state.textureAttribute(A::TEXENV, unit);
     const auto* environment = dynamic_cast<const osg::TexEnv*>(attribute);
     if (environment && environment->getMode() == osg::TexEnv::DECAL) return Effect::None;

@@ -2,6 +2,7 @@
 #include <gnomon/casters/DrawnState.h>
 
 #include <osg/AlphaFunc>
+#include <osg/GraphicsContext>
 #include <osg/Material>
 #include <osg/Program>
 #include <osg/TexEnv>
@@ -15,6 +16,7 @@
 #include <set>
 #include <string>
 #include <tuple>
+#include <typeinfo>
 
 namespace gnomon {
 namespace {
@@ -105,6 +107,7 @@ void mixTexture(const osg::Texture& texture, Fingerprint& into) {
     for (const auto axis : {osg::Texture::WRAP_S, osg::Texture::WRAP_T, osg::Texture::WRAP_R})
         into.mix(std::uint64_t{unsigned(texture.getWrap(axis))});
     into.mix(texture.getBorderColor().a());
+    into.mix(std::uint64_t{holdsNothing(texture)});
     for (unsigned face = 0; face < texture.getNumImages() && !texture.getUnRefImageDataAfterApply(); ++face) {
         const osg::Image* image = texture.getImage(face);
         into.mix(static_cast<const void*>(image));
@@ -112,10 +115,22 @@ void mixTexture(const osg::Texture& texture, Fingerprint& into) {
     }
 }
 
+/// By the rules of osg::Texture2D::apply(). Of other classes that is not known.
+bool holdsNothing(const osg::Texture& texture) {
+    if (typeid(texture) != typeid(osg::Texture2D)) return false;
+    const auto& plain = static_cast<const osg::Texture2D&>(texture);
+    if (plain.getSubloadCallback() || (plain.getImage() && plain.getImage()->data())) return false;
+    if (plain.getTextureWidth() != 0 && plain.getTextureHeight() != 0) return false;
+    for (unsigned context = 0; context <= osg::GraphicsContext::getMaxContextID(); ++context)
+        if (plain.getTextureObject(context)) return false; // somebody's own
+    return true;
+}
+
 bool changesUnseen(const osg::Texture& texture) {
     const auto* plain = dynamic_cast<const osg::Texture2D*>(&texture);
     if (plain && plain->getSubloadCallback()) return true;
-    return !texture.getUnRefImageDataAfterApply() && (texture.getNumImages() == 0 || !texture.getImage(0));
+    return !holdsNothing(texture) && !texture.getUnRefImageDataAfterApply() &&
+           (texture.getNumImages() == 0 || !texture.getImage(0));
 }
 
 ReleasedImages::ReleasedImages(const DrawnStates& states) {

@@ -23,6 +23,8 @@ void holdStates(const DrawnStates& states, std::vector<osg::ref_ptr<const osg::R
 
 /// What a texture is sampled by: how, and its images, but for those that are let go once drawn. See ReleasedImages.
 void mixTexture(const osg::Texture& texture, Fingerprint& into);
+/// True of a texture that OpenGL draws without: it has no image, as where the file was not found, and nobody draws into it.
+bool holdsNothing(const osg::Texture& texture);
 /// True if nothing here tells when a texture's contents change: it is rendered to, or a callback of its own fills it.
 bool changesUnseen(const osg::Texture& texture);
 /// True if a drawing may be another in each frame by its states: a clock that a program reads, a texture or buffer whose
