@@ -14,8 +14,9 @@
 #include <osg/observer_ptr>
 
 #include <algorithm>
+#include <cstddef>
 #include <iterator>
-#include <map>
+#include <unordered_map>
 
 namespace gnomon {
 namespace {
@@ -109,8 +110,7 @@ public:
         const bool valid = known != _known.end() && known->second.owner.valid();
         if (!data || (valid && known->second.modified == data->getModifiedCount()))
             return valid ? known->second.alphas : Alphas();
-        for (auto each = _known.begin(); each != _known.end();)
-            each = each->second.owner.valid() ? std::next(each) : _known.erase(each);
+        if (_known.size() >= _mostWithGone) letGo();
         return (_known[&owner] = {&owner, data->getModifiedCount(), alphasIn(*data)}).alphas;
     }
 
@@ -118,12 +118,20 @@ protected:
     ~KnownAlphas() override = default;
 
 private:
+    /// Those whose owner is gone. Before each new one that would take as long as all of them squared.
+    void letGo() {
+        for (auto each = _known.begin(); each != _known.end();)
+            each = each->second.owner.valid() ? std::next(each) : _known.erase(each);
+        _mostWithGone = 2 * _known.size() + 1;
+    }
+
     struct Entry {
         osg::observer_ptr<const osg::Object> owner;
         unsigned modified;
         Alphas alphas;
     };
-    std::map<const osg::Object*, Entry> _known;
+    std::unordered_map<const osg::Object*, Entry> _known;
+    std::size_t _mostWithGone = 1; ///< entries, some of whose owners may be gone.
 };
 
 /// Null if it has none, or is no geometry.
@@ -151,7 +159,10 @@ bool mayBeSolid(const osgUtil::RenderLeaf& leaf, KnownAlphas& known) {
         if (!known.of(*texture, texture->getImage(0)).one) return false;
     }
     const osg::Array* colors = colorsOf(*leaf._drawable);
-    if (colors && showsColors(graph)) return colors->getNumElements() == 0 || known.of(*colors, colors).one;
+    if (colors && showsColors(graph)) {
+        const unsigned number = colors->getNumElements();
+        return number == 0 || (number == 1 ? alphasIn(*colors) : known.of(*colors, colors)).one; // one is read at once
+    }
     const auto* material = resolved<osg::Material>(graph, A::MATERIAL);
     if (!isOn(graph, GL_LIGHTING) || !material) return true;
     return std::max(material->getDiffuse(osg::Material::FRONT).a(), material->getDiffuse(osg::Material::BACK).a()) >=
