@@ -5,6 +5,7 @@
 #include <support/Picture.h>
 #include <support/Scene.h>
 
+#include <gnomon/ShadowMapTechnique.h>
 #include <gtest/gtest.h>
 #include <osg/BlendFunc>
 #include <osg/ColorMask>
@@ -263,4 +264,29 @@ TEST(Catchers, APassOfDepthsBeforeThatOfColorsIsNone) {
         const auto* technique = dynamic_cast<gnomon::ShadowTechnique*>(twice.group->getChild(1));
         EXPECT_EQ(causesButLitSurfaces(*technique), std::vector<std::string>()) << spec;
     }
+}
+
+// A forest of unlit trees is one cause.
+TEST(NotRelit, OneOfThoseThatShareAStateIsNamedAndOneOfEachState) {
+    Scene scene = groundScene(twoCasters);
+    std::vector<osg::ref_ptr<osg::StateSet>> states{new osg::StateSet, new osg::StateSet};
+    for (const auto& state : states) unlit(*state);
+    for (unsigned i = 0; i < 6; ++i) {
+        const osg::ref_ptr<osg::Geometry> panel = osg::createTexturedQuadGeometry(
+            osg::Vec3(float(i) - 6.0f, -3.0f, 0.5f), osg::Vec3(0.9f, 0.0f, 0.0f), osg::Vec3(0.0f, 6.0f, 0.0f));
+        panel->setName("panel " + std::string(1, char('a' + i)));
+        panel->setStateSet(states[i / 3]);
+        scene.content->addChild(panel);
+    }
+    const osg::ref_ptr<gnomon::ShadowTechnique> technique = new gnomon::ShadowMapTechnique;
+    scene.addShadow(technique);
+    render(scene.root, slanted);
+    std::string named;
+    for (const std::string& cause : causesButLitSurfaces(*technique)) {
+        const std::size_t at = cause.find("'panel ");
+        ASSERT_NE(at, std::string::npos) << cause;
+        named += cause[at + 7];
+    }
+    ASSERT_EQ(named.size(), 2u) << named;
+    EXPECT_NE(named[0] < 'd', named[1] < 'd') << named;
 }

@@ -220,18 +220,25 @@ void Compositor::replay(const std::vector<ReplayedLeaf>& leaves, LeafReplay::Ove
     overlay.lightUniforms = lightUniformsOf(jobs);
     LeafReplay replay(_draw, overlay);
     for (const ReplayedLeaf& leaf : leaves) replay.draw(leaf.entry, leaf.lost);
-    for (const osgUtil::RenderLeaf* leaf : replay.notRelit()) reportNotRelit(*leaf, jobs);
+    const osgUtil::StateGraph* named = nullptr; // leaves of one state, which share the cause, mostly follow each other
+    for (const osgUtil::RenderLeaf* leaf : replay.notRelit())
+        if (leaf->_parent != named && reportNotRelit(*leaf, jobs)) named = leaf->_parent;
 }
 
-void Compositor::reportNotRelit(const osgUtil::RenderLeaf& leaf, const Jobs& jobs) const {
-    if (!keptBy<StageVerdict>(_draw.stage).askToName()) return;
+/// @return whether any of them does.
+bool Compositor::reportNotRelit(const osgUtil::RenderLeaf& leaf, const Jobs& jobs) const {
+    if (!keptBy<StageVerdict>(_draw.stage).askToName()) return false;
+    bool reported = false;
     for (const ShadowJob* job : jobs)
-        if (job->isReceiver(leaf) && job->mark->canReach(leaf))
+        if (job->isReceiver(leaf) && job->mark->canReach(leaf)) {
+            reported = true;
             job->report(
                 "no light can be taken from '" + nameOf(leaf) +
                 "', because it is unlit or writes no colour, or its program does not read gl_LightSource. Its colour "
                 "is multiplied by setDark() (dark=) instead. Light it with OpenGL, name the uniform of its light "
                 "with ShadowCasterGroup::addLightUniform(), or leave it out of the receiver.");
+        }
+    return reported;
 }
 
 void Compositor::blend(const Jobs& jobs, float dark) {
