@@ -173,19 +173,19 @@ bool Compositor::composeDirectly(const Jobs& wanted) {
 void Compositor::relight(const Jobs& wanted) {
     const MarkedLights lights = _marks.lightsOf(wanted);
     const unsigned lightBits = bitsOf(lights);
-    const ScreenRect bounds = boundsOf(jobsOf(lights));
+    const ScreenRect bounds = screenBoundsOf(jobsOf(lights));
     _marks.clearLeftovers(lightBits);
     _marks.mark(lights);
     resetMarked(lightBits, bounds);
     std::vector<ReplayedLeaf> catchers;
-    for (unsigned lost = 1; lost < (1u << lights.size()); ++lost) replay(partOf(lights, lost), lightBits, catchers);
+    for (unsigned lost = 1; lost < (1u << lights.size()); ++lost) replay(subsetOf(lights, lost), lightBits, catchers);
     if (!catchers.empty()) darken(catchers, lightBits, jobsOf(lights));
     _draw.clear(lightBits, bounds);
 }
 
 /// What shows where a catcher is seen loses the light by the factor.
 void Compositor::darken(const std::vector<ReplayedLeaf>& catchers, unsigned lightBits, const Jobs& jobs) const {
-    const ScreenRect bounds = boundsOf(jobs);
+    const ScreenRect bounds = screenBoundsOf(jobs);
     const unsigned seen = _marks.scratchBit();
     if (!seen) return reportAll(jobs, oneBitLeft);
     writeWhereSeen(_draw, catchers, {seen, seen, seen}, bounds);
@@ -243,7 +243,7 @@ bool Compositor::reportNotRelit(const osgUtil::RenderLeaf& leaf, const Jobs& job
 
 void Compositor::blend(const Jobs& jobs, float dark) {
     const unsigned bit = _marks.firstBit();
-    const ScreenRect bounds = boundsOf(jobs);
+    const ScreenRect bounds = screenBoundsOf(jobs);
     MarkedLight all;
     all.hard = jobs;
     all.hardBit = bit;

@@ -57,7 +57,7 @@ void FadingCompositor::relight(const Jobs& wanted) const {
     const MarkedLights lights = _marks.lightsOf(wanted);
     const Jobs jobs = jobsOf(lights);
     if (jobs.empty()) return;
-    const ScreenRect bounds = boundsOf(jobs);
+    const ScreenRect bounds = screenBoundsOf(jobs);
     Leaves leaves = leavesToReplay(_draw, jobs, bounds);
     const Leaves aside = setAside(leaves, jobs);
     const bool weighsAtOnce = jobs.size() == 1 && jobs.front()->fades() && aside.empty();
@@ -94,7 +94,7 @@ FadingCompositor::Leaves FadingCompositor::setAside(Leaves& leaves, const Jobs& 
 
 /// What cannot be mixed keeps its colour, times the factor where it lost light; no light bit stays set there.
 void FadingCompositor::darkenAside(const Leaves& aside, const Weights& weights, const Jobs& jobs) const {
-    const ScreenRect bounds = boundsOf(jobs);
+    const ScreenRect bounds = screenBoundsOf(jobs);
     Leaves kept, darkened;
     const unsigned faded = _marks.fadedBit();
     for (const ReplayedLeaf& leaf : aside) (leaf.lost && faded ? darkened : kept).push_back(leaf);
@@ -126,8 +126,8 @@ void FadingCompositor::multiplyByFactor(const Weights& weights, float factor, co
 void FadingCompositor::mix(const Leaves& leaves, const Weights& weights, const Jobs& jobs) const {
     const MarkedLights& lights = weights.lights;
     if (lights.size() > 1) {
-        weigh(weights, 0, boundsOf(jobs));
-        _draw.pass(boundsOf(jobs), [&](ScreenPass& screen) {
+        weigh(weights, 0, screenBoundsOf(jobs));
+        _draw.pass(screenBoundsOf(jobs), [&](ScreenPass& screen) {
             screen.stencilAny(bitsOf(lights));
             screen.multiplyColorByAlpha();
         });
@@ -145,7 +145,7 @@ void FadingCompositor::replay(const Leaves& leaves, const MarkedLights& lights, 
                               const Jobs& jobs) const {
     LeafReplay::Overlay overlay;
     overlay.bounds = bounds;
-    const MarkedLights dark = partOf(lights, lost);
+    const MarkedLights dark = subsetOf(lights, lost);
     for (const MarkedLight& light : dark)
         if (!light.isMixed()) overlay.test |= light.bits();
     overlay.stencilFunction =
@@ -168,7 +168,7 @@ void FadingCompositor::replay(const Leaves& leaves, const MarkedLights& lights, 
 /// where they can lose any of all lights.
 ScreenRect FadingCompositor::boundsWithout(const MarkedLights& lights, unsigned lost) const {
     const bool mixed = std::any_of(lights.begin(), lights.end(), [](const auto& light) { return light.isMixed(); });
-    return mixed ? boundsOf(jobsOf(lights)) : commonBounds(partOf(lights, lost));
+    return mixed ? screenBoundsOf(jobsOf(lights)) : commonBounds(subsetOf(lights, lost));
 }
 
 /// Alpha becomes the share of each pixel that sees all lights but those of `lost`.
@@ -194,7 +194,7 @@ void FadingCompositor::addBlended(const ShadowJob& job, const LightShares& share
 }
 
 void FadingCompositor::blend(const Jobs& jobs, float dark) const {
-    const ScreenRect bounds = boundsOf(jobs);
+    const ScreenRect bounds = screenBoundsOf(jobs);
     const unsigned bit = _marks.firstBit();
     _marks.clearLeftovers(bit);
     const auto weighsAtOnce = [&](const ShadowJob* job) {

@@ -68,7 +68,7 @@ LightShares::LightShares(const CompositorStage& draw, std::vector<Jobs> lights, 
 
 /// All of it arrives.
 void LightShares::begin(const Jobs& light, GLuint texture) const {
-    _draw.pass(boundsOf(light), [&](ScreenPass& screen) {
+    _draw.pass(screenBoundsOf(light), [&](ScreenPass& screen) {
         const ScratchFramebuffer framebuffer(*_draw.state.get<osg::GLExtensions>());
         attach(_draw.state, texture);
         screen.setAlpha(1.0f);

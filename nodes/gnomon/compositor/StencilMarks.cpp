@@ -36,7 +36,7 @@ void reportAll(const Jobs& jobs, const std::string& cause) {
     for (const ShadowJob* job : jobs) job->report(cause);
 }
 
-ScreenRect boundsOf(const Jobs& jobs) {
+ScreenRect screenBoundsOf(const Jobs& jobs) {
     ScreenRect all = jobs.front()->mark->screenBounds;
     for (const ShadowJob* job : jobs) all = united(all, job->mark->screenBounds);
     return all;
@@ -101,7 +101,7 @@ Jobs jobsOf(const MarkedLights& lights) {
     return all;
 }
 
-MarkedLights partOf(const MarkedLights& lights, unsigned subset) {
+MarkedLights subsetOf(const MarkedLights& lights, unsigned subset) {
     MarkedLights part;
     for (std::size_t i = 0; i < lights.size(); ++i)
         if (subset & (1u << i)) part.push_back(lights[i]);
@@ -110,7 +110,7 @@ MarkedLights partOf(const MarkedLights& lights, unsigned subset) {
 
 ScreenRect commonBounds(const MarkedLights& lights) {
     ScreenRect bounds = wholeScreen;
-    for (const MarkedLight& light : lights) bounds = common(bounds, boundsOf(light.jobs()));
+    for (const MarkedLight& light : lights) bounds = common(bounds, screenBoundsOf(light.jobs()));
     return bounds;
 }
 

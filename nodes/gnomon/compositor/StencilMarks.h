@@ -22,7 +22,7 @@ constexpr const char* oneBitLeft =
 /// A cause for all their techniques.
 void reportAll(const Jobs& jobs, const std::string& cause);
 /// Where all the jobs' marks can fall.
-ScreenRect boundsOf(const Jobs& jobs);
+ScreenRect screenBoundsOf(const Jobs& jobs);
 /// Those of all the jobs' groups.
 std::vector<LightUniform> lightUniformsOf(const Jobs& jobs);
 
@@ -42,7 +42,7 @@ using MarkedLights = std::vector<MarkedLight>;
 unsigned bitsOf(const MarkedLights& lights);
 Jobs jobsOf(const MarkedLights& lights);
 /// Those of `subset`: bit i means lights[i].
-MarkedLights partOf(const MarkedLights& lights, unsigned subset);
+MarkedLights subsetOf(const MarkedLights& lights, unsigned subset);
 /// Where pixels can lose all of these lights.
 ScreenRect commonBounds(const MarkedLights& lights);
 
