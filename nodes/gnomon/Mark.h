@@ -50,6 +50,10 @@ public:
     /// @return why nothing could be drawn, as a cause for ShadowTechnique::report(); empty if all is well.
     virtual std::string draw(ScreenPass& pass) const = 0;
 
+    /// Of Kind::Fades: looks at what it must know of the frame, where the next draw() draws to something else. Called as draw() is.
+    /// Default: nothing.
+    virtual void look(ScreenPass&) const {}
+
     /// What finds where within their pixels its marks end, so that a share of the light arrives there if the frame has one sample
     /// a pixel. Of Kind::Hard or Counts. Default null: nothing does.
     virtual const MarkEdges* edges() const { return nullptr; }

@@ -133,7 +133,11 @@ INSTANTIATE_TEST_SUITE_P(AnyWindow, AnyWindowBy,
                          testing::Values("planar", "planar:composite=blend", "box", "hull", "hull:composite=blend",
                                          "traced", "traced:composite=blend", "map", "map:composite=blend",
                                          "map:receiver=ground", "map:edges=smooth", "map:edges=smooth,composite=blend",
-                                         "map:edges=soft,sun-angle=4", "volume", "volume:composite=blend"),
+                                         "map:edges=soft,sun-angle=4", "volume", "volume:composite=blend",
+                                         "planar:edges=smooth,composite=blend", "planar:edges=smooth",
+                                         "hull:edges=smooth", "hull:edges=smooth,composite=blend",
+                                         "volume:edges=smooth", "volume:edges=smooth,receiver=ground",
+                                         "traced:edges=smooth"),
                          [](const auto& spec) { return nameOf(spec.param); });
 
 } // namespace

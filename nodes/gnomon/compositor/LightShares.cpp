@@ -85,6 +85,7 @@ void LightShares::look(const ShadowJob& job, unsigned bit, GLuint texture) const
         const PixelRect pixels = pixelsInScissor(viewport);
         if (pixels.empty()) return;
         FrameDepths::hold(screen.state(), wholeQuads(pixels, viewport));
+        if (!edges) job.mark->look(screen);
         const ScratchFramebuffer framebuffer(*_draw.state.get<osg::GLExtensions>());
         attach(_draw.state, texture);
         screen.ask(ScreenPass::Want::Arriving);

@@ -60,14 +60,14 @@ struct TracedAnswer {
 /// The answers of a technique's last frames, so that rays are cast only where depth, light or casters have changed.
 ///
 /// Cost
-/// - Four bytes a pixel, of each light in each view, until PerView lets it go.
+/// - Four bytes a pixel, five with shares, of each light in each view, until PerView lets it go.
 /// Threads
 /// - Any number.
 class TracedFrames {
 public:
     /// Casts rays only where they may differ from the last ones of the same view and light; for shares, wherever they are not all of
     /// the light or nothing, once any may.
-    TracedAnswer answerTo(TracedFrame frame);
+    std::shared_ptr<const TracedAnswer> answerTo(TracedFrame frame);
     /// How many pixels rays were cast for so far.
     std::size_t traced() const { return _traced; }
 
@@ -82,7 +82,7 @@ private:
         TracedFrame frame;                    ///< without scene and pieces, which may be large.
         std::weak_ptr<const RayScene> scene;  ///< of it.
         std::shared_ptr<const Pieces> pieces; ///< of it; null if they are not known.
-        TracedAnswer answer;
+        std::shared_ptr<const TracedAnswer> answer;
     };
     /// What is known of a light in a view. Whoever casts rays for it holds it, so that it may be let go meanwhile.
     struct Last {
@@ -114,9 +114,20 @@ public:
     TracedMark() { depthSteps = 0.0; } ///< Rays find the surface within what a depth may mean.
     Kind kind() const override { return frame.smooth ? Kind::Fades : Kind::Hard; }
     std::string draw(ScreenPass& pass) const override;
+    void look(ScreenPass& pass) const override { _looked = find(pass); }
 
 protected:
     ~TracedMark() override = default;
+
+private:
+    struct Found {
+        std::string cause;                          ///< why nothing was; empty if all is well.
+        DepthPicture part;                          ///< without its depths.
+        std::shared_ptr<const TracedAnswer> answer; ///< null if nothing is looked at.
+    };
+    Found find(const ScreenPass& pass) const;
+
+    mutable std::optional<Found> _looked; ///< for the next draw().
 };
 
 using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
@@ -241,7 +252,7 @@ std::optional<std::vector<RayBox>> TracedFrames::changesBetween(const Known& bef
     return boxes;
 }
 
-TracedAnswer TracedFrames::answerTo(TracedFrame frame) {
+std::shared_ptr<const TracedAnswer> TracedFrames::answerTo(TracedFrame frame) {
     std::shared_ptr<Last> last;
     std::shared_ptr<const Known> before;
     {
@@ -259,30 +270,36 @@ TracedAnswer TracedFrames::answerTo(TracedFrame frame) {
         before->frame.lightInScene == frame.lightInScene && isSamePart(before->frame.picture, frame.picture))
         changed = sameScene ? std::vector<RayBox>() : changesBetween(*before, pieces.get(), frame.origin);
     std::optional<FormerShadow> former;
-    if (changed) former.emplace(FormerShadow{before->frame.picture, before->answer.bits, std::move(*changed)});
+    if (changed) former.emplace(FormerShadow{before->frame.picture, before->answer->bits, std::move(*changed)});
     const std::shared_ptr<const RayScene> scene = std::move(frame.scene);
-    TracedBits found =
-        depthBufferShadow(*scene, frame.picture, frame.clipFromScene, frame.lightInScene, former ? &*former : nullptr);
-    _traced += found.traced;
-    TracedAnswer answer{std::move(found.bits), {}};
-    const bool isAsBefore = former && former->changed.empty() && found.traced == 0;
-    if (frame.smooth && isAsBefore && !before->answer.shares.empty())
-        answer.shares = before->answer.shares;
-    else if (frame.smooth)
-        answer.shares = depthBufferShares(*scene, frame.picture, frame.clipFromScene, frame.lightInScene, answer.bits);
+    std::shared_ptr<const TracedAnswer> answer;
+    if (former && former->changed.empty() && frame.picture.depths == former->picture.depths &&
+        (!frame.smooth || !before->answer->shares.empty()))
+        answer = before->answer;
+    else {
+        TracedBits found = depthBufferShadow(*scene, frame.picture, frame.clipFromScene, frame.lightInScene,
+                                             former ? &*former : nullptr);
+        _traced += found.traced;
+        TracedAnswer fresh{std::move(found.bits), {}};
+        if (frame.smooth)
+            fresh.shares =
+                depthBufferShares(*scene, frame.picture, frame.clipFromScene, frame.lightInScene, fresh.bits);
+        answer = std::make_shared<const TracedAnswer>(std::move(fresh));
+    }
     auto now = std::make_shared<const Known>(Known{std::move(frame), scene, pieces, answer});
     Lock lock(_mutex);
     last->known.swap(now);
     return answer;
 }
 
-std::string TracedMark::draw(ScreenPass& pass) const {
+/// Of the frame that is drawn to.
+TracedMark::Found TracedMark::find(const ScreenPass& pass) const {
     osg::State& state = pass.state();
-    if (glInteger(GL_DEPTH_BITS) == 0) return noDepth;
+    if (glInteger(GL_DEPTH_BITS) == 0) return {noDepth, {}, {}};
     const PlainPixels plain(state);
     DepthPicture part = partInScissor(*state.getCurrentViewport());
-    if (part.width <= 0 || part.height <= 0) return "";
-    if (!readDepth(state, *resolved, part)) return unresolvedDepth;
+    if (part.width <= 0 || part.height <= 0) return {"", part, {}};
+    if (!readDepth(state, *resolved, part)) return {unresolvedDepth, {}, {}};
     if (pass.isInterlaced()) part.neighbour = 2;
     part.offPlace += pushedBack.x;
     part.step *= 1.0 + pushedBack.y; // of which depthBufferShadow() allows for a few
@@ -295,11 +312,18 @@ std::string TracedMark::draw(ScreenPass& pass) const {
     depths.swap(part.depths);
     seen.picture = part;
     seen.picture.depths.swap(depths);
-    const TracedAnswer answer = frames->answerTo(std::move(seen));
+    return {"", part, frames->answerTo(std::move(seen))};
+}
+
+std::string TracedMark::draw(ScreenPass& pass) const {
+    const Found found = _looked ? std::move(*_looked) : find(pass);
+    _looked.reset();
+    if (!found.cause.empty() || found.part.width <= 0 || found.part.height <= 0) return found.cause;
+    const PlainPixels plain(pass.state());
     if (frame.smooth)
-        drawShares(pass, part, answer.shares);
+        drawShares(pass, found.part, found.answer->shares);
     else
-        (glInteger(GL_SAMPLES) > 0 ? drawRuns : drawBits)(state, part, answer.bits);
+        (glInteger(GL_SAMPLES) > 0 ? drawRuns : drawBits)(pass.state(), found.part, found.answer->bits);
     return "";
 }
 
