@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Edges below one sample of the techniques that are exact: the share of a pixel on their lit side, against closed forms and rays.
-#include "TracedCases.h"
+#include "IntoTexture.h"
 
 #include <glm/geometric.hpp>
 #include <gnomon/ShadowSpec.h>
 #include <gtest/gtest.h>
+#include <osg/LightSource>
 #include <osg/Math>
 #include <support/Oracle.h>
 
@@ -12,9 +13,10 @@
 #include <cmath>
 #include <iostream>
 
-using gnomon::ShadowCasterGroup;
+using test::Camera;
 using test::Picture;
 using test::Scene;
+using test::View;
 
 namespace {
 
@@ -173,4 +175,85 @@ TEST_P(SmoothEdges, MoveByPartsOfAPixel) {
     std::cout << "an area of " << least << " to " << most << " pixels\n";
     EXPECT_GT(least, 1000.0);
     EXPECT_LT(most - least, 6.0); // an edge of 160 pixels, by a 30th of one
+}
+
+namespace {
+
+const View slanted = test::perspective({-6.0, -9.0, 6.0}, {0.0, 0.5, 0.0}, 161, 121);
+
+/// What is drawn how, with edges of one kind.
+struct Several {
+    const char* name;
+    std::vector<std::string> specs;
+    int lights = 1;
+};
+std::ostream& operator<<(std::ostream& out, const Several& several) { return out << several.name; }
+
+Scene lit(int lights) {
+    Scene scene =
+        test::groundScene({test::house({0.0, 0.0}, {2.0, 1.5, 1.0}, 30.0), test::sphere({-1.5, 1.5, 1.0}, 0.7, 10)},
+                          8.0, {1.0, 0.4, 1.2, 0.0});
+    if (lights > 1) {
+        osg::ref_ptr<osg::LightSource> second = new osg::LightSource;
+        second->getLight()->setLightNum(1);
+        second->getLight()->setPosition({-1.0f, 0.3f, 1.0f, 0.0f});
+        second->getLight()->setDiffuse({0.3f, 0.2f, 0.1f, 1.0f});
+        scene.root->addChild(second);
+        scene.root->getOrCreateStateSet()->setMode(GL_LIGHT1, osg::StateAttribute::ON);
+    }
+    return scene;
+}
+
+class SmoothEdgesOfSeveral : public testing::TestWithParam<Several> {
+protected:
+    static Picture drawn(const std::string& edges) {
+        Scene scene = lit(GetParam().lights);
+        for (const std::string& spec : GetParam().specs)
+            scene.addShadow(spec + (spec.find(':') == std::string::npos ? ":" : ",") + "edges=" + edges);
+        Camera camera(scene.root, slanted);
+        const test::GlComplaints complaints(camera);
+        camera.frame();
+        Picture picture = camera.frame();
+        EXPECT_EQ(complaints.all(), std::vector<std::string>());
+        return picture;
+    }
+};
+
+} // namespace
+
+INSTANTIATE_TEST_SUITE_P(
+    Of, SmoothEdgesOfSeveral,
+    testing::Values(Several{"twoLights", {"volume"}, 2}, Several{"twoLightsBlended", {"volume:composite=blend"}, 2},
+                    Several{"twoTechniques", {"volume", "planar:receiver=ground"}},
+                    Several{"twoTechniquesBlended", {"volume:composite=blend", "planar:composite=blend"}},
+                    Several{
+                        "withRaysBlended", {"volume:composite=blend,dark=0.3", "traced:composite=blend,dark=0.3"}, 2},
+                    Several{"three", {"volume", "planar:receiver=ground", "traced"}, 2},
+                    Several{"raysOfTwoLights", {"traced"}, 2}, Several{"named", {"volume:receiver=ground"}},
+                    Several{"namedBlended", {"volume:receiver=ground,composite=blend"}}),
+    [](const auto& of) { return std::string(of.param.name); });
+
+// A pixel with a share of light is between those about it that are lit and that are not, channel by channel.
+TEST_P(SmoothEdgesOfSeveral, LieBetweenWhatHardEdgesHave) {
+    const Picture hard = drawn("hard"), smooth = drawn("smooth");
+    int changed = 0, outside = 0;
+    for (int y = 1; y + 1 < hard.height; ++y)
+        for (int x = 1; x + 1 < hard.width; ++x) {
+            changed += hard.at(x, y) != smooth.at(x, y);
+            bool within = true;
+            for (const int shift : {0, 8, 16}) {
+                const auto channel = [shift](std::uint32_t color) { return int(color >> shift & 0xffu); };
+                int least = 255, most = 0;
+                for (int i = 0; i < 9; ++i) {
+                    const int value = channel(hard.at(x + i % 3 - 1, y + i / 3 - 1));
+                    least = std::min(least, value);
+                    most = std::max(most, value);
+                }
+                const int value = channel(smooth.at(x, y));
+                within = within && value >= least - 3 && value <= most + 3;
+            }
+            outside += !within;
+        }
+    EXPECT_GT(changed, 30);
+    EXPECT_LE(outside, 2); // where edges of two lights cross
 }

@@ -30,6 +30,13 @@ void writeDepths(osg::State& state, const VastLeaf& leaf) {
     glDepthRange(0.0, 1.0);
 }
 
+/// True if marks of both fall on the same leaves: then a share of one is a share of the other.
+bool areOnTheSame(const ShadowJob& a, const ShadowJob& b) {
+    if (a.receiverNamed != b.receiverNamed) return false;
+    if (!a.receiverNamed) return a.isOfLens(*b.projection);
+    return a.receivers == b.receivers || (a.receivers && b.receivers && *a.receivers == *b.receivers);
+}
+
 } // namespace
 
 void reportAll(const Jobs& jobs, const std::string& cause) {
@@ -115,14 +122,17 @@ ScreenRect commonBounds(const MarkedLights& lights) {
 }
 
 std::size_t stencilBitsFor(const std::vector<ShadowJob>& jobs) {
-    constexpr int blended = -1;           // no light: all that blends shares a bit
-    std::map<int, std::bitset<2>> lights; // which kinds of marks each has: hard, fading
+    constexpr int blended = -1;            // no light: all that blends shares a bit
+    std::map<int, std::bitset<2>> lights;  // which kinds of marks each has: hard, fading
+    std::map<int, const ShadowJob*> first; // that fades, of each
     bool together = false, fading = false;
     for (const ShadowJob& job : jobs) {
         if (job.programMark()) continue;
-        std::bitset<2>& kinds = lights[job.relight ? job.light : blended];
+        const int number = job.relight ? job.light : blended;
+        std::bitset<2>& kinds = lights[number];
         together = together || kinds.any() || job.receiverNamed;
-        kinds.set(job.fades());
+        const ShadowJob* other = job.fades() ? first.emplace(number, &job).first->second : nullptr;
+        kinds.set(job.fades() && (!job.relight || areOnTheSame(*other, job)));
         fading = fading || job.fades();
     }
     const auto isMixed = [](const auto& light) { return light.second.all(); };
@@ -155,7 +165,12 @@ MarkedLights StencilMarks::lightsOf(const Jobs& wanted) const {
             lights.emplace_back().number = job->light;
             light = lights.end() - 1;
         }
-        (_fades && job->fades() ? light->fading : light->hard).push_back(job);
+        const bool fades = _fades && job->fades();
+        const bool shares = fades && (light->fading.empty() || areOnTheSame(*light->fading.front(), *job));
+        if (fades && !shares)
+            job->report("another technique has smooth edges for the same light and other receivers, so these edges are "
+                        "hard. Name the same receiver for both, or for none.");
+        (shares ? light->fading : light->hard).push_back(job);
     }
     for (; lights.size() > mostRelitLights; lights.pop_back())
         reportAll(

@@ -30,7 +30,7 @@ std::vector<LightUniform> lightUniformsOf(const Jobs& jobs);
 struct MarkedLight {
     int number = 0; ///< OpenGL's.
     Jobs hard;      ///< a pixel gets all of the light or nothing.
-    Jobs fading;
+    Jobs fading;    ///< of the same receivers all: their shares are multiplied.
     unsigned hardBit = 0, fadingBit = 0;
 
     unsigned bits() const { return hardBit | fadingBit; }
