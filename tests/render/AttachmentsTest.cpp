@@ -41,8 +41,20 @@ osg::ref_ptr<osg::Image> blank() {
     return image;
 }
 
+/// Has OpenGL read from an attachment from there on.
+struct Reads : osg::Drawable {
+    explicit Reads(GLenum of = GL_COLOR_ATTACHMENT0_EXT) : attachment(of) {
+        setSupportsDisplayList(false);
+        setCullingActive(false);
+    }
+    Reads(const Reads& other, const osg::CopyOp& copyOp) : osg::Drawable(other, copyOp), attachment(other.attachment) {}
+    META_Object(test, Reads)
+    void drawImplementation(osg::RenderInfo&) const override { glReadBuffer(attachment); }
+    const GLenum attachment;
+};
+
 /// The third frame. @param spec  empty for no shadow.
-Attachments draw(const std::string& spec, bool blends) {
+Attachments draw(const std::string& spec, bool blends, GLenum read = 0) {
     Scene scene = groundScene({box({-1.0, -1.0, 0.5}, {1.0, 1.0, 2.0})}, 4.0, {1.0, 0.3, 1.2, 0.0});
     scene.root->getOrCreateStateSet()->setAttribute(colorsAndNormals());
     if (blends)
@@ -50,6 +62,7 @@ Attachments draw(const std::string& spec, bool blends) {
             ->getOrCreateStateSet()
             ->setAttributeAndModes(new osg::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA));
     if (!spec.empty()) scene.addShadow(spec);
+    if (read) scene.root->addChild(new Reads(read));
     Camera camera(scene.root, from);
     Attachments drawn{blank(), blank(), {}};
     osg::Camera& into = *camera.viewer().getCamera();
@@ -118,7 +131,8 @@ INSTANTIATE_TEST_SUITE_P(Buffers, ColorAttachments,
                          testing::Values("planar", "planar:receiver=ground", "planar:composite=blend",
                                          "planar:composite=blend,receiver=ground", "map", "map:composite=blend",
                                          "map:edges=smooth", "map:edges=smooth,composite=blend", "traced",
-                                         "hull:composite=blend"));
+                                         "hull:composite=blend", "volume:edges=smooth",
+                                         "planar:edges=smooth,composite=blend", "traced:edges=smooth"));
 
 } // namespace
 
@@ -129,6 +143,13 @@ TEST_P(ColorAttachments, ButTheFirstStayAsTheyAre) {
         EXPECT_EQ(different(*actual.normals, *bare.normals), 0) << blends;
         EXPECT_EQ(actual.complaints, std::vector<std::string>()) << blends;
     }
+}
+
+TEST_P(ColorAttachments, WhicheverIsReadTheShadowsAreTheSame) {
+    const Attachments usual = draw(GetParam(), false, GL_COLOR_ATTACHMENT0_EXT),
+                      actual = draw(GetParam(), false, GL_COLOR_ATTACHMENT1_EXT);
+    EXPECT_EQ(different(*actual.colors, *usual.colors), 0);
+    EXPECT_EQ(actual.complaints, std::vector<std::string>());
 }
 
 // Whatever marks do, they lie in the first layer: the second would be lit where the first is not.

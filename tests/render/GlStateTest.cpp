@@ -91,16 +91,12 @@ osg::ref_ptr<GlProbe> addProbe(osg::Group& parent, osg::StateSet* set, int bin) 
 
 /// What leaves in bins after the compositor's find, with the grounds' state set and with none, and who comes after the
 /// frame: in frames 1 and 3.
-std::vector<GlSnapshot> seen(const TwoGrounds& place, void (*state)(osg::StateSet&),
-                             const ShadowCasterGroup::Composite* composite) {
+std::vector<GlSnapshot> seen(const TwoGrounds& place, void (*state)(osg::StateSet&), const Change& addShadow) {
     Scene scene = place.build();
     osg::ref_ptr<osg::StateSet> set = new osg::StateSet;
     state(*set);
     for (const char* name : {"left", "right"}) find(*scene.root, name)->setStateSet(set);
-    if (composite) {
-        place.addShadow(scene);
-        scene.group->setComposite(*composite);
-    }
+    addShadow(scene);
     const auto same = addProbe(*scene.root, set, 11), bare = addProbe(*scene.root, nullptr, 9),
                later = addProbe(*scene.root, set, 12);
     Camera camera(scene.root, place.view);
@@ -148,11 +144,30 @@ TEST(GlComplaints, HearAnErrorWithItsText) {
 }
 
 TEST_P(GlState, IsThatOfAFrameWithoutGnomon) {
-    const auto& [place, composite] = GetParam();
+    const TwoGrounds& place = std::get<0>(GetParam());
+    const auto addShadow = [&](Scene& scene) {
+        place.addShadow(scene);
+        scene.group->setComposite(std::get<1>(GetParam()));
+    };
     for (const Kind& kind : {Kind{"plain", plain}, {"rich", rich}, {"program", withAProgram}, {"nothing", nothing}}) {
-        const std::vector<GlSnapshot> expected = seen(place, kind.set, nullptr),
-                                      actual = seen(place, kind.set, &composite);
+        const std::vector<GlSnapshot> expected = seen(place, kind.set, [](Scene&) {}),
+                                      actual = seen(place, kind.set, addShadow);
         for (std::size_t i = 0; i < expected.size(); ++i)
             EXPECT_EQ(difference(expected[i], actual[i]), "") << kind.name << ", snapshot " << i;
+    }
+}
+
+TEST(GlStateAfterSmoothEdges, IsThatOfAFrameWithoutGnomon) {
+    const TwoGrounds place;
+    for (const Kind& kind : {Kind{"rich", rich}, {"nothing", nothing}}) {
+        const std::vector<GlSnapshot> expected = seen(place, kind.set, [](Scene&) {});
+        for (const std::string spec :
+             {"planar:edges=smooth,receiver=grounds", "planar:edges=smooth,receiver=grounds,composite=blend",
+              "hull:edges=smooth,receiver=grounds", "volume:edges=smooth", "volume:edges=smooth,composite=blend",
+              "traced:edges=smooth"}) {
+            const std::vector<GlSnapshot> actual = seen(place, kind.set, [&](Scene& scene) { scene.addShadow(spec); });
+            for (std::size_t i = 0; i < expected.size(); ++i)
+                EXPECT_EQ(difference(expected[i], actual[i]), "") << kind.name << ", " << spec << ", snapshot " << i;
+        }
     }
 }

@@ -89,6 +89,17 @@ struct DepthTransfer : public osg::Drawable {
     mutable float foundScale = 0.0f, foundBias = 0.0f; ///< as the frame before has left them.
 };
 
+/// Zooms what is drawn by pixels.
+struct PixelZoom : public osg::Drawable {
+    PixelZoom() {
+        setSupportsDisplayList(false);
+        setCullingActive(false);
+    }
+    PixelZoom(const PixelZoom& other, const osg::CopyOp& copyOp) : osg::Drawable(other, copyOp) {}
+    META_Object(test, PixelZoom)
+    void drawImplementation(osg::RenderInfo&) const override { glPixelZoom(2.0f, -1.0f); }
+};
+
 int changed(const Picture& a, const Picture& b) { return a.different(b); }
 
 } // namespace
@@ -236,6 +247,16 @@ TEST(HostileState, AScaleAndABiasOfCopiedDepthsMoveNoShadowAndStandAfterwards) {
             EXPECT_EQ(transfer->foundBias, 0.25f) << spec << target.samples;
         }
     }
+}
+
+TEST(HostileState, AZoomOfPixelsMovesNoShare) {
+    const auto drawn = [](bool zooms) {
+        Scene scene = boxScene();
+        if (zooms) scene.root->addChild(new PixelZoom);
+        scene.addShadow("traced:edges=smooth");
+        return render(scene.root, view);
+    };
+    EXPECT_EQ(changed(drawn(true), drawn(false)), 0);
 }
 
 TEST(HostileState, ABinsOwnStateSetCountsAsItDoesOnItsNodes) {

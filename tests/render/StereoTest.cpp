@@ -110,9 +110,10 @@ std::ostream& operator<<(std::ostream& out, const Case& it) { return out << it.m
 
 std::vector<Case> cases() {
     std::vector<Case> all;
-    for (const char* given : {"planar", "planar:composite=blend,receiver=ground", "map",
-                              "map:composite=blend,edges=smooth", "map:edges=smooth", "map:receiver=ground", "traced",
-                              "traced:composite=blend", "hull", "hull:composite=blend", "halo", "mirror"})
+    for (const char* given :
+         {"planar", "planar:composite=blend,receiver=ground", "map", "map:composite=blend,edges=smooth",
+          "map:edges=smooth", "map:receiver=ground", "traced", "traced:composite=blend", "hull", "hull:composite=blend",
+          "volume:edges=smooth", "planar:edges=smooth,composite=blend", "traced:edges=smooth", "halo", "mirror"})
         all.push_back({Mode::HORIZONTAL_INTERLACE, given});
     for (const char* given : {"planar", "map"})
         for (const Mode mode : {Mode::VERTICAL_INTERLACE, Mode::CHECKERBOARD}) all.push_back({mode, given});
@@ -133,11 +134,11 @@ TEST_P(InterlacedStereo, ShowsEachEyeItsOwnPicture) {
     const Drawn left = draw(given, Mode::LEFT_EYE), right = draw(given, Mode::RIGHT_EYE);
     EXPECT_GT(left.third.different(bareLeft.third), 500);
     EXPECT_GT(left.third.different(right.third), 5000);
-    // Smooth edges lie by the slope of what is seen, of which an eye knows every other pixel.
+    // Smooth edges lie by the slope of what is seen, of which an eye knows every other pixel; and marks' edges are hard then.
     const bool smooth = given.find("smooth") != std::string::npos;
     EXPECT_EQ(wrong(actual.first, left.first, right.first, mode, swapped, !smooth), 0);
     EXPECT_EQ(wrong(actual.third, left.third, right.third, mode, swapped, !smooth), 0);
-    EXPECT_LE(wrong(actual.third, left.third, right.third, mode, swapped), smooth ? 150 : 0);
+    EXPECT_LE(wrong(actual.third, left.third, right.third, mode, swapped), smooth ? 200 : 0);
     EXPECT_EQ(actual.complaints, std::vector<std::string>());
     EXPECT_TRUE(actual.keepsPattern);
 }

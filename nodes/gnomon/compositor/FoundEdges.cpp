@@ -18,12 +18,22 @@ void bindTexture(osg::State& state, GLuint texture) {
 }
 
 void clearToZero() {
+    GLfloat color[4];
+    glGetFloatv(GL_COLOR_CLEAR_VALUE, color);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
     glStencilMask(~0u);
     glClearStencil(0);
     glClear(GL_COLOR_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    glClearColor(color[0], color[1], color[2], color[3]);
+}
+
+/// Into the texture that is bound.
+void copyTarget(const osg::State& state, const PixelRect& pixels) {
+    const PlainPixels plain(state);
+    const ReadsTarget reads(*state.get<osg::GLExtensions>());
+    glCopyTexSubImage2D(GL_TEXTURE_2D, 0, pixels.x, pixels.y, pixels.x, pixels.y, pixels.width, pixels.height);
 }
 
 } // namespace
@@ -83,7 +93,7 @@ FoundEdges::FoundEdges(const CompositorStage& draw, const ShadowJob& job, unsign
         screen.stencilAny(bit);
         screen.setAlpha(0.0f);
         bindTexture(draw.state, _textures.marks());
-        glCopyTexSubImage2D(GL_TEXTURE_2D, 0, pixels.x, pixels.y, pixels.x, pixels.y, pixels.width, pixels.height);
+        copyTarget(draw.state, pixels);
         screen.clearStencil(bit);
     });
     draw.pass(bounds, [&](ScreenPass& screen) {

@@ -11,11 +11,15 @@ constexpr unsigned seenUnit = 0, marksUnit = 1, cutsUnit = 2;
 constexpr unsigned endBit = 1;
 constexpr GLfloat width = 3.0f; // of lines, so that all pixels that one cuts are drawn
 
-void setTexture(osg::State& state, const char* name, unsigned unit, unsigned texture) {
+void bindTexture(osg::State& state, unsigned unit, unsigned texture) {
     state.setActiveTextureUnit(unit);
     glBindTexture(GL_TEXTURE_2D, texture);
     state.haveAppliedTextureAttribute(unit, osg::StateAttribute::TEXTURE);
     state.setActiveTextureUnit(0);
+}
+
+void setTexture(osg::State& state, const char* name, unsigned unit, unsigned texture) {
+    bindTexture(state, unit, texture);
     setUniform(state, name, int(unit));
 }
 
@@ -63,6 +67,7 @@ std::string MarkEdges::find(ScreenPass& pass, const Mark& mark, unsigned marks) 
     state.haveAppliedAttribute(osg::StateAttribute::POLYGONMODE);
     glDisable(depthClamp);
     pass.endMix();
+    bindTexture(state, marksUnit, 0);
     state.apply();
     return "";
 }
@@ -79,6 +84,7 @@ std::string MarkEdges::draw(ScreenPass& pass, unsigned marks, unsigned cuts) con
     pass.drawQuad(1.0);
     glDisable(GL_ALPHA_TEST);
     glDisable(GL_DEPTH_TEST);
+    for (const unsigned unit : {marksUnit, cutsUnit}) bindTexture(state, unit, 0);
     state.apply();
     return "";
 }

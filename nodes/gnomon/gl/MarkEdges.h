@@ -44,8 +44,6 @@ protected:
     ~MarkEdges() override = default;
 
 private:
-    void findEnds(ScreenPass& pass, unsigned marks) const;
-
     const Of _of;
     const osg::ref_ptr<osg::StateSet> _ends, _cuts, _shares;
     const std::shared_ptr<FrameDepths> _seen = FrameDepths::shared();

@@ -96,6 +96,24 @@ public:
     const GLuint name;
 };
 
+/// While it lives, what is drawn to is what is read.
+class ReadsTarget {
+public:
+    explicit ReadsTarget(const osg::GLExtensions& extensions) : _bound(extensions) {
+        extensions.glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, _bound.draw);
+        _before = static_cast<GLenum>(glInteger(GL_READ_BUFFER));
+        const auto drawn = static_cast<GLenum>(glInteger(GL_DRAW_BUFFER));
+        glReadBuffer(drawn == GL_FRONT_AND_BACK ? GLenum(GL_BACK) : drawn);
+    }
+    ~ReadsTarget() { glReadBuffer(_before); }
+    ReadsTarget(const ReadsTarget&) = delete;
+    ReadsTarget& operator=(const ReadsTarget&) = delete;
+
+private:
+    const SavedFramebuffers _bound;
+    GLenum _before = GL_NONE;
+};
+
 /// While it lives, pixels go to and come from memory as they are, without gaps.
 class PlainPixels {
 public:
@@ -109,6 +127,9 @@ public:
         glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
         glPixelTransferf(GL_DEPTH_SCALE, 1.0f);
         glPixelTransferf(GL_DEPTH_BIAS, 0.0f);
+        glPixelTransferf(GL_ALPHA_SCALE, 1.0f);
+        glPixelTransferf(GL_ALPHA_BIAS, 0.0f);
+        glPixelZoom(1.0f, 1.0f);
         if (!_extensions.isPBOSupported) return;
         for (GLenum buffer : {GL_PIXEL_PACK_BUFFER_ARB, GL_PIXEL_UNPACK_BUFFER_ARB})
             _extensions.glBindBuffer(buffer, 0);
