@@ -26,12 +26,16 @@ float depthAt(ivec2 at) { return texelFetch(seen, ivec2(at.x, int(rows.x + rows.
 
 bool isMarked(ivec2 at) { return texelFetch(marks, at, 0).a < 0.5; }
 
+// Whether something stands there.
+bool isSeen(ivec2 at) { return isWithin(at) && depthAt(at) < 1.0; }
+
 // Change of depth to the next pixel along an axis: to that which is marked as this one is, or else of two that differ the smaller. The
 // other may be of another surface: beyond a fold the light ends otherwise.
 float changeAlong(ivec2 here, ivec2 axis, float depth, bool own) {
-    float after = isWithin(here + axis) ? depthAt(here + axis) - depth : 1.0;
-    float before = isWithin(here - axis) ? depth - depthAt(here - axis) : 1.0;
-    bool isAfter = isMarked(here + axis) == own, isBefore = isMarked(here - axis) == own;
+    bool seenAfter = isSeen(here + axis), seenBefore = isSeen(here - axis);
+    float after = seenAfter ? depthAt(here + axis) - depth : 1.0;
+    float before = seenBefore ? depth - depthAt(here - axis) : 1.0;
+    bool isAfter = seenAfter && isMarked(here + axis) == own, isBefore = seenBefore && isMarked(here - axis) == own;
     bool takesAfter = isAfter == isBefore ? abs(after) < abs(before) : isAfter;
     float change = takesAfter ? after : before;
     return abs(change) < 1.0 ? change : 0.0;
