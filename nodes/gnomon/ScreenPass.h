@@ -99,6 +99,8 @@ public:
     void beginMix(const osg::Vec3& kept);
     /// Alpha alone becomes that of what is drawn next; ends with endMix().
     void beginAlpha();
+    /// Alpha alone becomes the smaller of what stands and that of what is drawn next; ends with endMix().
+    void beginLeast();
     /// Colour and alpha become the larger, a channel each, of what stands and what is drawn next; ends with endMix().
     void beginMost();
     /// Ends beginReplace(), beginMix() and the like: no colour is written.

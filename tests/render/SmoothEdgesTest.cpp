@@ -257,3 +257,20 @@ TEST_P(SmoothEdgesOfSeveral, LieBetweenWhatHardEdgesHave) {
     EXPECT_GT(changed, 30);
     EXPECT_LE(outside, 2); // where edges of two lights cross
 }
+
+// Where two techniques of a light find the same shadow, a pixel has the share that either lets through, and no product of both.
+TEST(SmoothEdgesOfOneLight, ASecondTechniqueThatFindsTheSameChangesNothing) {
+    for (const char* composite : {"relight", "blend"}) {
+        Picture pictures[2];
+        for (const int techniques : {1, 2}) {
+            Scene scene = lit(1);
+            for (int i = 0; i < techniques; ++i)
+                scene.addShadow(std::string("volume:edges=smooth,composite=") + composite);
+            pictures[techniques - 1] = test::render(scene.root, slanted);
+        }
+        int changed = 0;
+        for (std::size_t i = 0; i < pictures[0].pixels.size(); ++i)
+            changed += std::abs(int(pictures[0].pixels[i] & 0xffu) - int(pictures[1].pixels[i] & 0xffu)) > 2;
+        EXPECT_EQ(changed, 0) << composite;
+    }
+}

@@ -180,14 +180,16 @@ void FadingCompositor::weigh(const Weights& weights, unsigned lost, const Screen
     });
 }
 
-/// Multiplies alpha by the job's share.
-void FadingCompositor::addBlended(const ShadowJob& job, const LightShares& shares, unsigned bit) const {
-    _marks.add(job, bit, true, markBy(shares));
-    writeWhereSeen(_draw, notOfLens(job, _draw.leaves), {0, bit, _marks.scratchBit()}, job.mark->screenBounds);
-    _draw.pass(job.mark->screenBounds, [&](ScreenPass& screen) {
+/// What the marks of these jobs, which share `bit`, take of the light multiplies alpha.
+void FadingCompositor::addBlended(const Jobs& jobs, const LightShares& shares, unsigned bit) const {
+    for (const ShadowJob* job : jobs) {
+        _marks.add(*job, bit, job == jobs.front(), markBy(shares));
+        writeWhereSeen(_draw, notOfLens(*job, _draw.leaves), {0, bit, _marks.scratchBit()}, job->mark->screenBounds);
+    }
+    _draw.pass(screenBoundsOf(jobs), [&](ScreenPass& screen) {
         screen.stencilAny(bit);
-        if (job.fades())
-            shares.multiplyAlpha(job, false, screen);
+        if (jobs.front()->fades())
+            shares.multiplyAlpha(*jobs.front(), false, screen);
         else
             screen.setAlpha(0.0f);
     });
@@ -197,29 +199,43 @@ void FadingCompositor::blend(const Jobs& jobs, float dark) const {
     const ScreenRect bounds = screenBoundsOf(jobs);
     const unsigned bit = _marks.firstBit();
     _marks.clearLeftovers(bit);
-    const auto weighsAtOnce = [&](const ShadowJob* job) {
-        return job->fades() && !job->receiverNamed && (jobs.size() == 1 || !job->findsEdges) &&
-               notOfLens(*job, _draw.leaves).empty();
+    const auto weighsAtOnce = [&](const ShadowJob& job) {
+        const auto isOfLight = [&job](const ShadowJob* other) { return other->light == job.light; };
+        return job.fades() && !job.receiverNamed && notOfLens(job, _draw.leaves).empty() &&
+               (job.findsEdges ? jobs.size() : std::size_t(std::count_if(jobs.begin(), jobs.end(), isOfLight))) == 1;
     };
-    std::vector<Jobs> lookedUp;
-    for (const ShadowJob* job : jobs)
-        if (job->fades() && !weighsAtOnce(job)) lookedUp.push_back({job});
+    std::vector<Jobs> apart, lookedUp;
+    for (const ShadowJob* job : jobs) {
+        const auto hasSame = [job](const Jobs& known) {
+            return known.front()->light == job->light && areOnTheSame(*known.front(), *job);
+        };
+        const bool looks = job->fades() && !weighsAtOnce(*job);
+        const auto same = std::find_if(lookedUp.begin(), lookedUp.end(), hasSame);
+        if (!looks)
+            apart.push_back({job});
+        else if (same != lookedUp.end())
+            same->push_back(job);
+        else
+            lookedUp.push_back({job});
+    }
     const LightShares shares(_draw, lookedUp, bit);
     _draw.pass(bounds, [](ScreenPass& screen) { screen.setAlpha(1.0f); });
-    for (const ShadowJob* job : jobs) {
-        if (weighsAtOnce(job))
-            _marks.add(*job, bit, true, markWeighed());
+    apart.insert(apart.end(), lookedUp.begin(), lookedUp.end());
+    for (const Jobs& together : apart) {
+        if (weighsAtOnce(*together.front()))
+            _marks.add(*together.front(), bit, true, markWeighed());
         else
-            addBlended(*job, shares, bit);
-        if (jobs.size() > 1) _draw.clear(bit, job->mark->screenBounds);
+            addBlended(together, shares, bit);
+        if (apart.size() > 1) _draw.clear(bit, screenBoundsOf(together));
     }
+    const bool isLone = apart.size() == 1;
     _draw.pass(bounds, [&](ScreenPass& screen) {
-        if (jobs.size() == 1) screen.stencilAny(bit); // elsewhere alpha is 1
+        if (isLone) screen.stencilAny(bit); // elsewhere alpha is 1
         screen.fadeAlpha(dark);
         screen.multiplyColorByAlpha();
         screen.setAlpha(1.0f);
     });
-    if (jobs.size() == 1) _draw.clear(bit, bounds);
+    if (isLone) _draw.clear(bit, bounds);
 }
 
 } // namespace gnomon

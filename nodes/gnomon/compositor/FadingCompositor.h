@@ -41,7 +41,7 @@ private:
     ScreenRect boundsWithout(const MarkedLights& lights, unsigned lost) const;
     /// Multiplies alpha by the share of each.
     StencilMarks::MarkFading markWeighed() const;
-    void addBlended(const ShadowJob& job, const LightShares& shares, unsigned bit) const;
+    void addBlended(const Jobs& jobs, const LightShares& shares, unsigned bit) const;
     void weigh(const Weights& weights, unsigned lost, const ScreenRect& bounds) const;
 
     const CompositorStage& _draw;

@@ -89,7 +89,9 @@ void LightShares::look(const ShadowJob& job, unsigned bit, GLuint texture) const
         const ScratchFramebuffer framebuffer(*_draw.state.get<osg::GLExtensions>());
         attach(_draw.state, texture);
         screen.ask(ScreenPass::Want::Arriving);
+        screen.beginLeast();
         job.report(edges ? edges->draw(screen) : job.mark->draw(screen));
+        screen.endMix();
     });
 }
 

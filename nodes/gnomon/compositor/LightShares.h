@@ -38,7 +38,7 @@ private:
     GLint _format = 0;
 };
 
-/// What share of a light arrives by all its jobs that fade, a pixel one, whatever its samples: looked up once, into textures of the
+/// What share of a light arrives by all its jobs that fade, the least that one of them lets through, a pixel one, whatever its samples: looked up once, into textures of the
 /// kit's own, however often it is asked for. In them no depth stands, and all of the light arrives where nothing is.
 ///
 /// Needs   framebuffer objects.

@@ -30,14 +30,13 @@ void writeDepths(osg::State& state, const VastLeaf& leaf) {
     glDepthRange(0.0, 1.0);
 }
 
-/// True if marks of both fall on the same leaves: then a share of one is a share of the other.
+} // namespace
+
 bool areOnTheSame(const ShadowJob& a, const ShadowJob& b) {
     if (a.receiverNamed != b.receiverNamed) return false;
     if (!a.receiverNamed) return a.isOfLens(*b.projection);
     return a.receivers == b.receivers || (a.receivers && b.receivers && *a.receivers == *b.receivers);
 }
-
-} // namespace
 
 void reportAll(const Jobs& jobs, const std::string& cause) {
     for (const ShadowJob* job : jobs) job->report(cause);

@@ -21,6 +21,8 @@ constexpr const char* oneBitLeft =
 
 /// A cause for all their techniques.
 void reportAll(const Jobs& jobs, const std::string& cause);
+/// True if marks of both fall on the same leaves: then a share of one is a share of the other.
+bool areOnTheSame(const ShadowJob& a, const ShadowJob& b);
 /// Where all the jobs' marks can fall.
 ScreenRect screenBoundsOf(const Jobs& jobs);
 /// Those of all the jobs' groups.
@@ -30,7 +32,7 @@ std::vector<LightUniform> lightUniformsOf(const Jobs& jobs);
 struct MarkedLight {
     int number = 0; ///< OpenGL's.
     Jobs hard;      ///< a pixel gets all of the light or nothing.
-    Jobs fading;    ///< of the same receivers all: their shares are multiplied.
+    Jobs fading;    ///< of the same receivers all, see areOnTheSame().
     unsigned hardBit = 0, fadingBit = 0;
 
     unsigned bits() const { return hardBit | fadingBit; }

@@ -185,6 +185,12 @@ void ScreenPass::beginAlpha() {
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_TRUE);
 }
 
+void ScreenPass::beginLeast() {
+    addBlended(_state, GL_ONE, GL_ONE);
+    _state.get<osg::GLExtensions>()->glBlendEquation(osg::BlendEquation::RGBA_MIN);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_TRUE);
+}
+
 void ScreenPass::beginMost() {
     addBlended(_state, GL_ONE, GL_ONE);
     _state.get<osg::GLExtensions>()->glBlendEquation(osg::BlendEquation::RGBA_MAX);
