@@ -324,6 +324,7 @@ private:
         traced.still.rays = _pixels;
         addBoth(traced, 0.0, 0.0);
         _result.all.back().still.calls = traced.still.calls;
+        _result.all.back().still.pixels = traced.still.pixels;
         _result.all.back().still.rays += raysToSmooth * _pixels;
     }
 
