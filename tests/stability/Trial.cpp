@@ -26,6 +26,13 @@ bool shadowsWhatFacesAway() { return casting == By::Traced || casting == By::Map
                                          << found.wrongAtEdge << " at edges are neither lit nor dark";
 }
 
+template <typename Technique>
+osg::ref_ptr<gnomon::ShadowTechnique> smoothly() {
+    osg::ref_ptr<Technique> technique = new Technique;
+    technique->setEdges(Technique::SMOOTH);
+    return technique;
+}
+
 void blendToBlack(Scene& scene) {
     scene.group->setComposite(ShadowCasterGroup::BLEND);
     scene.group->setDark(0.0f);
@@ -37,14 +44,24 @@ ByTechnique::ByTechnique() { casting = GetParam(); }
 ByTechnique::~ByTechnique() { casting = By::Planar; }
 
 std::ostream& operator<<(std::ostream& out, By technique) {
-    constexpr const char* names[] = {"Planar", "Hull", "Traced", "Map", "Volume"};
+    constexpr const char* names[] = {"Planar", "Hull",         "Traced",       "Map",
+                                     "Volume", "SmoothPlanar", "SmoothTraced", "SmoothVolume"};
     return out << names[static_cast<int>(technique)];
 }
 
 osg::ref_ptr<gnomon::ShadowTechnique> castingTechnique(osg::Node* receiver) {
     if (casting == By::Planar) return planar(receiver);
     osg::ref_ptr<gnomon::ShadowTechnique> technique;
-    if (casting == By::Traced)
+    if (casting == By::SmoothPlanar) {
+        const osg::ref_ptr<gnomon::PlanarShadowNode> smooth = planar(receiver);
+        smooth->setEdges(gnomon::PlanarShadowNode::SMOOTH);
+        return smooth;
+    }
+    if (casting == By::SmoothTraced)
+        technique = smoothly<gnomon::TracedShadowTechnique>();
+    else if (casting == By::SmoothVolume)
+        technique = smoothly<gnomon::ShadowVolumeTechnique>();
+    else if (casting == By::Traced)
         technique = new gnomon::TracedShadowTechnique;
     else if (casting == By::Map)
         technique = new gnomon::ShadowMapTechnique;

@@ -10,7 +10,7 @@
 namespace test {
 
 /// The techniques that trials are run with: the same pictures are expected of all.
-enum class By { Planar, Hull, Traced, Map, Volume };
+enum class By { Planar, Hull, Traced, Map, Volume, SmoothPlanar, SmoothTraced, SmoothVolume };
 std::ostream& operator<<(std::ostream& out, By technique);
 
 /// Cases of this fixture are run with each technique. All but planar, which has its plane, are told that the ground
@@ -24,6 +24,10 @@ protected:
     class suite : public ByTechnique {};                                                                               \
     INSTANTIATE_TEST_SUITE_P(Shadows, suite, testing::Values(__VA_ARGS__), testing::PrintToStringParamName())
 #define GNOMON_BY_TECHNIQUE(suite) GNOMON_BY(suite, By::Planar, By::Hull, By::Traced, By::Map, By::Volume)
+/// With smooth edges, too, where no picture is held against rays.
+#define GNOMON_BY_SMOOTH_TECHNIQUE(suite)                                                                              \
+    GNOMON_BY(suite, By::Planar, By::Hull, By::Traced, By::Map, By::Volume, By::SmoothPlanar, By::SmoothTraced,        \
+              By::SmoothVolume)
 
 /// For z = 0: the technique of the case that is run, else planar.
 osg::ref_ptr<gnomon::ShadowTechnique> castingTechnique(osg::Node* receiver = nullptr);

@@ -38,8 +38,9 @@ private:
     GLint _format = 0;
 };
 
-/// What share of a light arrives by all its jobs that fade, the least that one of them lets through, a pixel one, whatever its samples: looked up once, into textures of the
-/// kit's own, however often it is asked for. In them no depth stands, and what arrives where nothing stands is anything.
+/// What share of a light arrives by all its jobs that fade, the least that one of them lets through, a pixel one, whatever its
+/// samples: looked up once, into textures of the kit's own, however often it is asked for. In them no depth stands, and what
+/// arrives where nothing stands is anything.
 ///
 /// Needs   framebuffer objects.
 /// Threads one a context; contexts that share objects draw one after the other.

@@ -52,8 +52,9 @@ std::string PlanarMark::draw(ScreenPass& pass) const {
     return drawn ? "" : noProgram;
 }
 
+/// All lines, for in the first frame it is not known yet which triangles of solids need not be drawn.
 void PlanarMark::drawEdges(ScreenPass& pass) const {
-    for (const PlanarPart& part : casters->parts) drawPart(pass.renderInfo(), part);
+    for (const PlanarPart& part : casters->parts) drawPart(pass.renderInfo(), part, false);
 }
 
 /// @return false if some program is not to be had.
@@ -69,16 +70,17 @@ bool PlanarMark::drawParts(osg::RenderInfo& renderInfo) const {
             continue;
         }
         for (const PlanarPart& part : casters->parts)
-            if (meant(part)) drawPart(renderInfo, part);
+            if (meant(part)) drawPart(renderInfo, part, true);
     }
     state.apply();
     return drawn;
 }
 
-void PlanarMark::drawPart(osg::RenderInfo& renderInfo, const PlanarPart& part) const {
+/// @param cullsSolids  draws only those triangles of a solid that are turned to the light.
+void PlanarMark::drawPart(osg::RenderInfo& renderInfo, const PlanarPart& part, bool cullsSolids) const {
     const osg::State& state = *renderInfo.getState();
     // A solid cut by the light's height may lack its upper faces.
-    const bool culls = part.solid && !reachesLight, isClipped = clips(part);
+    const bool culls = cullsSolids && part.solid && !reachesLight, isClipped = clips(part);
     const glm::dmat4 planes = glm::transpose(part.sceneFromMesh);
     setUniform(state, "clipFromVertex", clipFromScene * part.sceneFromMesh);
     if (isClipped) {

@@ -63,7 +63,7 @@ protected:
 private:
     bool drawParts(osg::RenderInfo& renderInfo) const;
     bool clips(const PlanarPart& part) const { return part.crossing || reachesLight; }
-    void drawPart(osg::RenderInfo& renderInfo, const PlanarPart& part) const;
+    void drawPart(osg::RenderInfo& renderInfo, const PlanarPart& part, bool cullsSolids) const;
     void cut(ScreenPass& pass) const;
 };
 
