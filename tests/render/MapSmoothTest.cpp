@@ -6,6 +6,7 @@
 #include <gnomon/ShadowMapTechnique.h>
 #include <gtest/gtest.h>
 #include <osg/Math>
+#include <support/Oracle.h>
 
 #include <algorithm>
 #include <cmath>
@@ -32,17 +33,6 @@ osg::ref_ptr<ShadowMapTechnique> mapWith(ShadowMapTechnique::Edges edges, int si
 double shareOf(std::uint32_t color, std::uint32_t dark, std::uint32_t lit) {
     const auto red = [](std::uint32_t c) { return double(c & 0xffu); };
     return (red(color) - red(dark)) / (red(lit) - red(dark));
-}
-
-/// Share of a pixel beyond a line. @param across  unit. @param middle  how far its middle is beyond, pixels.
-double coverage(const glm::dvec3& across, double middle) {
-    constexpr int samples = 32; // each way
-    int beyond = 0;
-    for (int i = 0; i < samples * samples; ++i) {
-        const glm::dvec3 off((i % samples + 0.5) / samples - 0.5, (i / samples + 0.5) / samples - 0.5, 0.0);
-        beyond += middle + glm::dot(off, across) > 0.0;
-    }
-    return double(beyond) / (samples * samples);
 }
 
 /// A case in which a pixel's share of the light can be told.
@@ -80,7 +70,7 @@ TEST(MapSmooth, PixelsHaveTheShareThatIsOnTheLitSide) {
                     const glm::dvec3 place((x + 0.5) * pixel - half - height, (y + 0.5) * pixel - half, 0.0);
                     const double beyond = glm::dot(place, across) / pixel;
                     const double share = (double(picture.at(x, y) & 0xffu) / test::litGround - dark) / (1.0 - dark);
-                    const double off = share - coverage(across, beyond);
+                    const double off = share - test::coverage(across, beyond);
                     if (glm::dot(place, across) < -height * across.x) continue; // the plate itself
                     if (std::abs(beyond) > 2.0) farOff = std::max(farOff, std::abs(off));
                     if (std::abs(beyond) > 0.5 * (std::abs(across.x) + std::abs(across.y))) continue;

@@ -30,17 +30,6 @@ struct Exact {
 };
 std::ostream& operator<<(std::ostream& out, const Exact& exact) { return out << exact.name; }
 
-/// What share of a pixel is beyond a line. @param across  unit. @param middle  how far its middle is beyond, pixels.
-double coverage(const glm::dvec3& across, double middle) {
-    constexpr int samples = 64; // each way
-    int beyond = 0;
-    for (int i = 0; i < samples * samples; ++i) {
-        const glm::dvec3 off((i % samples + 0.5) / samples - 0.5, (i / samples + 0.5) / samples - 0.5, 0.0);
-        beyond += middle + glm::dot(off, across) > 0.0;
-    }
-    return double(beyond) / (samples * samples);
-}
-
 class SmoothEdges : public testing::TestWithParam<Exact> {
 protected:
     Picture drawn(Scene scene, const char* edges, const test::View& view, bool blends = true) const {
@@ -79,7 +68,7 @@ TEST_P(SmoothEdges, PixelsHaveTheShareThatIsOnTheLitSide) {
                     const glm::dvec3 place((x + 0.5) * pixel - half - height, (y + 0.5) * pixel - half, 0.0);
                     if (glm::dot(place, across) < -height * across.x) continue; // the plate itself
                     const double share = (red(picture, x, y) / test::litGround - dark) / (1.0 - dark);
-                    const double due = coverage(across, glm::dot(place, across) / pixel);
+                    const double due = test::coverage(across, glm::dot(place, across) / pixel);
                     worst = std::max(worst, std::abs(share - due));
                     between += due > 0.1 && due < 0.9;
                 }

@@ -144,4 +144,14 @@ Comparison compare(const Picture& actual, const Picture& lit, const Picture& dar
     return result;
 }
 
+double coverage(const glm::dvec3& across, double middle) {
+    constexpr int samples = 64; // each way
+    int beyond = 0;
+    for (int i = 0; i < samples * samples; ++i) {
+        const glm::dvec3 off((i % samples + 0.5) / samples - 0.5, (i / samples + 0.5) / samples - 0.5, 0.0);
+        beyond += middle + glm::dot(off, across) > 0.0;
+    }
+    return double(beyond) / (samples * samples);
+}
+
 } // namespace test

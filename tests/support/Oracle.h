@@ -29,6 +29,9 @@ struct Mask {
 Mask castRays(const Mesh& receiver, const std::vector<Mesh>& casters, const osg::Vec4d& light, const View& view,
               const std::vector<Mesh>& clear = {});
 
+/// Share of a pixel beyond a line, by 64 × 64 places in it. @param across  unit. @param middle  how far its middle is beyond, pixels.
+double coverage(const glm::dvec3& across, double middle);
+
 /// The picture that ought to be: `lit`, but `dark` where the mask says shadow. Neither is drawn with Gnomon.
 struct Comparison {
     int wrongInside = 0; ///< pixels away from edges that are not the expected colour: must be 0.

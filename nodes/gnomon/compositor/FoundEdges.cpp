@@ -10,13 +10,6 @@
 namespace gnomon {
 namespace {
 
-/// Leaves it to osg::State to bind what it needs next.
-void bindTexture(osg::State& state, GLuint texture) {
-    state.setActiveTextureUnit(0);
-    glBindTexture(GL_TEXTURE_2D, texture);
-    state.haveAppliedTextureAttribute(0, osg::StateAttribute::TEXTURE);
-}
-
 void clearToZero() {
     GLfloat color[4];
     glGetFloatv(GL_COLOR_CLEAR_VALUE, color);
@@ -42,15 +35,7 @@ void EdgeTextures::fit(osg::State& state, GLsizei width, GLsizei height) {
     if (_width >= width && _height >= height) return;
     _width = std::max(_width, width);
     _height = std::max(_height, height);
-    for (GLuint& name : _names) {
-        if (!name) glGenTextures(1, &name);
-        bindTexture(state, name);
-        for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
-            glTexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
-        for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
-            glTexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
-        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, _width, _height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
-    }
+    for (GLuint& name : _names) sizeTexture(state, name, GL_RGBA8, _width, _height);
     const auto& gl = *state.get<osg::GLExtensions>();
     const SavedFramebuffers saved(gl); // and which renderbuffer is bound
     if (!_stencil) gl.glGenRenderbuffers(1, &_stencil);
@@ -92,7 +77,7 @@ FoundEdges::FoundEdges(const CompositorStage& draw, const ShadowJob& job, unsign
         screen.setAlpha(1.0f);
         screen.stencilAny(bit);
         screen.setAlpha(0.0f);
-        bindTexture(draw.state, _textures.marks());
+        bindTexture(draw.state, 0, _textures.marks());
         copyTarget(draw.state, pixels);
         screen.clearStencil(bit);
     });
@@ -100,7 +85,7 @@ FoundEdges::FoundEdges(const CompositorStage& draw, const ShadowJob& job, unsign
         if (pixelsInScissor(viewport).empty()) return;
         const auto& gl = *draw.state.get<osg::GLExtensions>();
         const ScratchFramebuffer framebuffer(gl);
-        gl.glFramebufferTexture2D(GL_FRAMEBUFFER_EXT, GL_COLOR_ATTACHMENT0_EXT, GL_TEXTURE_2D, _textures.cuts(), 0);
+        framebuffer.attachColor(_textures.cuts());
         for (const GLenum attachment : {GL_DEPTH_ATTACHMENT_EXT, GL_STENCIL_ATTACHMENT_EXT})
             gl.glFramebufferRenderbuffer(GL_FRAMEBUFFER_EXT, attachment, GL_RENDERBUFFER_EXT, _textures.stencil());
         clearToZero();

@@ -11,22 +11,6 @@
 #include <utility>
 
 namespace gnomon {
-namespace {
-
-/// Leaves it to osg::State to bind what it needs next.
-void bindTexture(osg::State& state, GLuint texture) {
-    state.setActiveTextureUnit(0);
-    glBindTexture(GL_TEXTURE_2D, texture);
-    state.haveAppliedTextureAttribute(0, osg::StateAttribute::TEXTURE);
-}
-
-/// To the framebuffer object that is bound.
-void attach(const osg::State& state, GLuint texture) {
-    state.get<osg::GLExtensions>()->glFramebufferTexture2D(GL_FRAMEBUFFER_EXT, GL_COLOR_ATTACHMENT0_EXT, GL_TEXTURE_2D,
-                                                           texture, 0);
-}
-
-} // namespace
 
 void ShareTextures::fit(osg::State& state, std::size_t count, GLsizei width, GLsizei height) {
     const GLint format = glInteger(GL_ALPHA_BITS) > 8 ? GL_RGBA16 : GL_RGBA8;
@@ -35,13 +19,7 @@ void ShareTextures::fit(osg::State& state, std::size_t count, GLsizei width, GLs
     _width = std::max(_width, width);
     _height = std::max(_height, height);
     _names.resize(std::max(_names.size(), count), 0);
-    for (GLuint& name : _names) {
-        if (!name) glGenTextures(1, &name);
-        bindTexture(state, name);
-        for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
-            glTexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
-        glTexImage2D(GL_TEXTURE_2D, 0, _format, _width, _height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
-    }
+    for (GLuint& name : _names) sizeTexture(state, name, _format, _width, _height);
 }
 
 void ShareTextures::deleteAllGLObjects() {
@@ -70,7 +48,7 @@ LightShares::LightShares(const CompositorStage& draw, std::vector<Jobs> lights, 
 void LightShares::begin(const Jobs& light, GLuint texture) const {
     _draw.pass(screenBoundsOf(light), [&](ScreenPass& screen) {
         const ScratchFramebuffer framebuffer(*_draw.state.get<osg::GLExtensions>());
-        attach(_draw.state, texture);
+        framebuffer.attachColor(texture);
         screen.setAlpha(1.0f);
     });
 }
@@ -87,7 +65,7 @@ void LightShares::look(const ShadowJob& job, unsigned bit, GLuint texture) const
         FrameDepths::hold(screen.state(), wholeQuads(pixels, viewport));
         if (!edges) job.mark->look(screen);
         const ScratchFramebuffer framebuffer(*_draw.state.get<osg::GLExtensions>());
-        attach(_draw.state, texture);
+        framebuffer.attachColor(texture);
         screen.ask(ScreenPass::Want::Arriving);
         screen.beginLeast();
         job.report(edges ? edges->draw(screen) : job.mark->draw(screen));
@@ -119,7 +97,7 @@ void LightShares::drawTexture(const ShadowJob& job, ScreenPass& screen) const {
     };
     const auto light = std::find_if(_lights.begin(), _lights.end(), hasJob);
     osg::State& state = screen.state();
-    bindTexture(state, _textures[static_cast<std::size_t>(light - _lights.begin())]);
+    bindTexture(state, 0, _textures[static_cast<std::size_t>(light - _lights.begin())]);
     glEnable(GL_TEXTURE_2D);
     glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_REPLACE);
     const PixelRect all = pixelsOf(*_draw.stage.getViewport());

@@ -98,6 +98,23 @@ void leaveDefaults(osg::State& state) {
         state.haveAppliedAttribute(type);
 }
 
+void bindTexture(osg::State& state, unsigned unit, GLuint texture) {
+    state.setActiveTextureUnit(unit);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    state.haveAppliedTextureAttribute(unit, osg::StateAttribute::TEXTURE);
+    state.setActiveTextureUnit(0);
+}
+
+void sizeTexture(osg::State& state, GLuint& texture, GLint format, GLsizei width, GLsizei height) {
+    if (!texture) glGenTextures(1, &texture);
+    bindTexture(state, 0, texture);
+    for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+        glTexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
+    for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
+        glTexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
+    glTexImage2D(GL_TEXTURE_2D, 0, format, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+}
+
 PixelRect pixelsInScissor(const osg::Viewport& viewport) {
     GLint box[4];
     glGetIntegerv(GL_SCISSOR_BOX, box);

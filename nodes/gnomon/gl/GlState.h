@@ -69,6 +69,11 @@ void leaveDefaults(osg::State& state);
 /// Switches blending on: what is drawn times `source` is added to what stands times `destination`.
 void addBlended(const osg::State& state, GLenum source, GLenum destination);
 
+/// Binds a texture that no osg::Texture knows, and leaves it to osg::State to bind what is needed next. Unit 0 is the active one then.
+void bindTexture(osg::State& state, unsigned unit, GLuint texture);
+/// Makes its texels, of any contents: one a pixel, looked up as they are. @param texture  0 is made first.
+void sizeTexture(osg::State& state, GLuint& texture, GLint format, GLsizei width, GLsizei height);
+
 /// What is neither cut away by the scissor nor by the viewport.
 PixelRect pixelsInScissor(const osg::Viewport& viewport);
 /// Pixels of a viewport whose centres lie within bounds, and one more on either side.

@@ -11,13 +11,6 @@ constexpr unsigned seenUnit = 0, marksUnit = 1, cutsUnit = 2;
 constexpr unsigned endBit = 1;
 constexpr GLfloat width = 3.0f; // of lines, so that all pixels that one cuts are drawn
 
-void bindTexture(osg::State& state, unsigned unit, unsigned texture) {
-    state.setActiveTextureUnit(unit);
-    glBindTexture(GL_TEXTURE_2D, texture);
-    state.haveAppliedTextureAttribute(unit, osg::StateAttribute::TEXTURE);
-    state.setActiveTextureUnit(0);
-}
-
 void setTexture(osg::State& state, const char* name, unsigned unit, unsigned texture) {
     bindTexture(state, unit, texture);
     setUniform(state, name, int(unit));

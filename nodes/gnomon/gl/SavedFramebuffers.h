@@ -74,6 +74,9 @@ public:
                                               renderbuffer);
         useNoColors();
     }
+    void attachColor(GLuint texture) const {
+        _extensions.glFramebufferTexture2D(GL_FRAMEBUFFER_EXT, GL_COLOR_ATTACHMENT0_EXT, GL_TEXTURE_2D, texture, 0);
+    }
     bool isComplete() const {
         return _extensions.glCheckFramebufferStatus(GL_FRAMEBUFFER_EXT) == GL_FRAMEBUFFER_COMPLETE_EXT;
     }
