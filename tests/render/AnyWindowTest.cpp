@@ -28,14 +28,7 @@ const std::vector<Mesh> casters = {house({0.0, 0.0}, {2.0, 1.5, 1.0}, 30.0), sph
 
 Scene shadowed(const std::string& spec, int lights = 1) {
     Scene scene = groundScene(casters, 8.0, {1.0, 0.4, 1.2, 0.0});
-    if (lights > 1) {
-        osg::ref_ptr<osg::LightSource> second = new osg::LightSource;
-        second->getLight()->setLightNum(1);
-        second->getLight()->setPosition({-1.0f, 0.3f, 1.0f, 0.0f});
-        second->getLight()->setDiffuse({0.3f, 0.2f, 0.1f, 1.0f});
-        scene.root->addChild(second);
-        scene.root->getOrCreateStateSet()->setMode(GL_LIGHT1, osg::StateAttribute::ON);
-    }
+    if (lights > 1) scene.addSecondLight();
     if (!spec.empty()) scene.addShadow(spec);
     return scene;
 }

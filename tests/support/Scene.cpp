@@ -64,6 +64,15 @@ void Scene::addShadow(const std::string& spec) {
     gnomon::addShadows(*group, {gnomon::parseShadowSpec(spec)});
 }
 
+void Scene::addSecondLight() {
+    osg::ref_ptr<osg::LightSource> second = new osg::LightSource;
+    second->getLight()->setLightNum(1);
+    second->getLight()->setPosition({-1.0f, 0.3f, 1.0f, 0.0f});
+    second->getLight()->setDiffuse({0.3f, 0.2f, 0.1f, 1.0f});
+    root->addChild(second);
+    root->getOrCreateStateSet()->setMode(GL_LIGHT1, osg::StateAttribute::ON);
+}
+
 void Scene::takeLightAway() {
     light->getLight()->setDiffuse({0.0f, 0.0f, 0.0f, 1.0f});
     light->getLight()->setSpecular({0.0f, 0.0f, 0.0f, 1.0f});

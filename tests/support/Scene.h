@@ -24,6 +24,8 @@ struct Scene {
     void addShadow(gnomon::ShadowTechnique* technique);
     /// The same with what a specification says, see gnomon::parseShadowSpec().
     void addShadow(const std::string& spec);
+    /// A second, dimmer and coloured sun, from the other side.
+    void addSecondLight();
     /// As a frame without Gnomon would be if nothing received this light: its diffuse and specular black.
     void takeLightAway();
 

@@ -220,20 +220,25 @@ private:
         hull.still.triangles = 6.0 * _pieces + drawnOfDense * dense;
         hull.light.hulls = _pieces + dense / trianglesOfAHull;
         hull.casters = hull.light;
-        addBoth(hull, facts.off / _one.pixel, hull.still.triangles);
+        findEdges(addBoth(hull, facts.off / _one.pixel), hull.still.triangles);
     }
 
-    /// The same with smooth edges, too. @param off  by so many pixels its edges lie elsewhere. @param sides  triangles of these.
-    void addBoth(const AutoCandidate& hard, double off, double sides) {
+    /// The same with smooth edges, too. @param off  by so many pixels its edges lie elsewhere. @return the smooth one.
+    AutoCandidate& addBoth(const AutoCandidate& hard, double off) {
         _result.all.push_back(hard);
         AutoCandidate smooth = hard;
         smooth.smooth = true;
         smooth.error = std::hypot(smoothError * _sampled, off);
+        if (!blends()) smooth.still.leaves *= faded;
+        _result.all.push_back(smooth);
+        return _result.all.back();
+    }
+
+    /// By the triangles that edges are sides of.
+    void findEdges(AutoCandidate& smooth, double sides) const {
         smooth.still.calls += callsToSmooth;
         smooth.still.pixels += pixelsToSmooth * _pixels;
         smooth.still.triangles += sides;
-        if (!blends()) smooth.still.leaves *= faded;
-        _result.all.push_back(smooth);
     }
 
     MapForecast forecast(int cascades, int size) const {
@@ -309,7 +314,7 @@ private:
         volume.casters.faced = movingShare() * volume.light.faced;
         volume.casters.sides = movingShare() * volume.light.sides;
         volume.why = "its volumes have some " + roundedText(forecast.sides) + " sides";
-        addBoth(volume, 0.0, 2.0 * forecast.sides);
+        findEdges(addBoth(volume, 0.0), 2.0 * forecast.sides);
     }
 
     void addTraced() {
@@ -322,10 +327,7 @@ private:
         traced.still.pixels = readBack * _pixels;
         // A still picture keeps them. They count all the same: else its first frame of motion would be the dearest of all.
         traced.still.rays = _pixels;
-        addBoth(traced, 0.0, 0.0);
-        _result.all.back().still.calls = traced.still.calls;
-        _result.all.back().still.pixels = traced.still.pixels;
-        _result.all.back().still.rays += raysToSmooth * _pixels;
+        addBoth(traced, 0.0).still.rays += raysToSmooth * _pixels;
     }
 
     CandidateSearch& _search;

@@ -204,14 +204,16 @@ void FadingCompositor::blend(const Jobs& jobs, float dark) const {
         return job.fades() && !job.receiverNamed && notOfLens(job, _draw.leaves).empty() &&
                (job.findsEdges ? jobs.size() : std::size_t(std::count_if(jobs.begin(), jobs.end(), isOfLight))) == 1;
     };
+    Jobs atOnce;
     std::vector<Jobs> apart, lookedUp;
     for (const ShadowJob* job : jobs) {
         const auto hasSame = [job](const Jobs& known) {
             return known.front()->light == job->light && areOnTheSame(*known.front(), *job);
         };
-        const bool looks = job->fades() && !weighsAtOnce(*job);
         const auto same = std::find_if(lookedUp.begin(), lookedUp.end(), hasSame);
-        if (!looks)
+        if (weighsAtOnce(*job))
+            atOnce.push_back(job);
+        else if (!job->fades())
             apart.push_back({job});
         else if (same != lookedUp.end())
             same->push_back(job);
@@ -221,14 +223,15 @@ void FadingCompositor::blend(const Jobs& jobs, float dark) const {
     const LightShares shares(_draw, lookedUp, bit);
     _draw.pass(bounds, [](ScreenPass& screen) { screen.setAlpha(1.0f); });
     apart.insert(apart.end(), lookedUp.begin(), lookedUp.end());
-    for (const Jobs& together : apart) {
-        if (weighsAtOnce(*together.front()))
-            _marks.add(*together.front(), bit, true, markWeighed());
-        else
-            addBlended(together, shares, bit);
-        if (apart.size() > 1) _draw.clear(bit, screenBoundsOf(together));
+    const bool isLone = atOnce.size() + apart.size() == 1;
+    for (const ShadowJob* job : atOnce) {
+        _marks.add(*job, bit, true, markWeighed());
+        if (!isLone) _draw.clear(bit, job->mark->screenBounds);
     }
-    const bool isLone = apart.size() == 1;
+    for (const Jobs& together : apart) {
+        addBlended(together, shares, bit);
+        if (!isLone) _draw.clear(bit, screenBoundsOf(together));
+    }
     _draw.pass(bounds, [&](ScreenPass& screen) {
         if (isLone) screen.stencilAny(bit); // elsewhere alpha is 1
         screen.fadeAlpha(dark);

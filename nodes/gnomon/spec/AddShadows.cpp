@@ -65,27 +65,11 @@ osg::ref_ptr<ShadowTechnique> makePlanar(const ShadowSpec& spec, const Receivers
     return node;
 }
 
-osg::ref_ptr<ShadowTechnique> makeTraced(const ShadowSpec& spec, const Receivers&) {
-    osg::ref_ptr<TracedShadowTechnique> node = new TracedShadowTechnique;
-    node->setOptions(spec.traced);
-    return node;
-}
-
-osg::ref_ptr<ShadowTechnique> makeAuto(const ShadowSpec& spec, const Receivers&) {
-    osg::ref_ptr<AutoShadowTechnique> node = new AutoShadowTechnique;
-    node->setOptions(spec.budget);
-    return node;
-}
-
-osg::ref_ptr<ShadowTechnique> makeVolume(const ShadowSpec& spec, const Receivers&) {
-    osg::ref_ptr<ShadowVolumeTechnique> node = new ShadowVolumeTechnique;
-    node->setOptions(spec.volume);
-    return node;
-}
-
-osg::ref_ptr<ShadowTechnique> makeMap(const ShadowSpec& spec, const Receivers&) {
-    osg::ref_ptr<ShadowMapTechnique> node = new ShadowMapTechnique;
-    node->setOptions(spec.map);
+/// That has no more than its options.
+template <typename Technique, auto options>
+osg::ref_ptr<ShadowTechnique> makeBy(const ShadowSpec& spec, const Receivers&) {
+    osg::ref_ptr<Technique> node = new Technique;
+    node->setOptions(spec.*options);
     return node;
 }
 
@@ -95,17 +79,16 @@ osg::ref_ptr<ShadowTechnique> makeBox(const ShadowSpec&, const Receivers&) {
     return node;
 }
 
-osg::ref_ptr<ShadowTechnique> makeHull(const ShadowSpec& spec, const Receivers&) {
-    osg::ref_ptr<TerrainShadowGeode> node = new TerrainShadowGeode;
-    node->setOptions(spec.hull);
-    return node;
-}
-
 /// Those that draw something, by their names in the table of techniques.
 const std::map<std::string, Maker>& makers() {
     static const std::map<std::string, Maker> all = {
-        {"planar", makePlanar}, {"box", makeBox},       {"hull", makeHull}, {"map", makeMap},
-        {"volume", makeVolume}, {"traced", makeTraced}, {"auto", makeAuto},
+        {"planar", makePlanar},
+        {"box", makeBox},
+        {"hull", makeBy<TerrainShadowGeode, &ShadowSpec::hull>},
+        {"map", makeBy<ShadowMapTechnique, &ShadowSpec::map>},
+        {"volume", makeBy<ShadowVolumeTechnique, &ShadowSpec::volume>},
+        {"traced", makeBy<TracedShadowTechnique, &ShadowSpec::traced>},
+        {"auto", makeBy<AutoShadowTechnique, &ShadowSpec::budget>},
     };
     return all;
 }

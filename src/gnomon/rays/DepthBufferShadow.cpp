@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace gnomon {
@@ -21,6 +22,12 @@ constexpr double coarse = 0.125; // of a pixel: depths that are off by more show
 /// faces meet, to either.
 struct Slope {
     double least = 0.0, most = 0.0;
+};
+
+/// Change of depth a pixel along an axis, and whether the light ends there on the same surface.
+struct EdgeSlope {
+    double change = 0.0;
+    bool ends = false;
 };
 
 /// How far a depth may be from that of the surface, in depth.
@@ -66,6 +73,8 @@ private:
     Slope slope(int x, int y, int dx, int dy) const;
     /// Homogeneous, scene: a point of a pixel's ray. In these coordinates all of the ray is linear in depth.
     glm::dvec4 unproject(const glm::dvec2& at, double depth) const;
+    template <typename IsBlocked>
+    EdgeSlope edgeSlope(int x, int y, const glm::ivec2& next, IsBlocked isBlocked) const;
     DepthError error(int x, int y, double perDistance) const;
     Span span(int x, int y) const { return span(x, y, glm::dvec2(0.0), depth(x, y), 0.0); }
     /// @param offset  from where the depth was taken, pixels. @param seen  depth there. @param bend  how far off that may be.
@@ -179,48 +188,57 @@ bool DepthTracer::blocked(int x, int y) const {
     return blocked(surface, start(surface));
 }
 
-/// The surface's plane is that to the neighbour which is blocked as the pixel is, or to the nearer one in depth: beyond a fold another
-/// face begins, on which the light ends otherwise. An edge is where the surface goes on to the other one and beyond, to half of its
-/// slope a pixel; places in the pixel where what is seen lies otherwise about the light are another face's. Of 16 columns and 16 rows there is one place in each; a quarter turn leaves them where they are.
+/// Change of depth a pixel along an axis, where the pixel is at an edge along it: it goes to the neighbour that is blocked as the
+/// pixel is, or to the nearer one in depth, for beyond a fold another face begins, on which the light ends otherwise. An edge is where
+/// the surface goes on to the other neighbour and beyond, to half of its slope a pixel.
+template <typename IsBlocked>
+EdgeSlope DepthTracer::edgeSlope(int x, int y, const glm::ivec2& next, IsBlocked isBlocked) const {
+    struct Side {
+        bool seen = false, same = false;
+        double change = 1.0; ///< to there.
+        double after = 1.0;  ///< from there to the one after; the same if that is beyond the part.
+    } sides[2];
+    const auto isIn = [&](int u, int v) { return u >= 0 && v >= 0 && u < _picture.width && v < _picture.height; };
+    const double here = depth(x, y);
+    for (const int sign : {-1, 1}) {
+        const int dx = sign * next.x, dy = sign * next.y, u = x + dx, v = y + dy;
+        if (!isIn(u, v) || !(depth(u, v) < 1.0)) continue;
+        const double to = sign * (depth(u, v) - here);
+        const bool hasAfter = isIn(u + dx, v + dy);
+        sides[sign > 0] = {true, isBlocked(u, v) == isBlocked(x, y), to,
+                           hasAfter ? sign * (depth(u + dx, v + dy) - depth(u, v)) : to};
+    }
+    const auto& [before, after] = sides;
+    const bool isNearer = std::abs(after.change) < std::abs(before.change);
+    const Side& best =
+        after.seen && (after.same == before.same || !before.seen ? isNearer : after.same) ? after : before;
+    if (!best.seen) return {};
+    const double most = stepsOff * _picture.step + 0.5 * std::abs(best.change);
+    const bool ends = std::any_of(std::begin(sides), std::end(sides), [&](const Side& side) {
+        return side.seen && !side.same && std::abs(side.change - best.change) <= most &&
+               std::abs(side.after - best.change) <= 2.0 * most;
+    });
+    return {best.change / _picture.neighbour, ends};
+}
+
+/// Places in the pixel where what is seen lies otherwise about the light are another face's. Of 16 columns and 16 rows there is one in
+/// each; a quarter turn leaves them where they are.
 template <typename IsBlocked>
 double DepthTracer::share(int x, int y, IsBlocked isBlocked) const {
     const bool own = isBlocked(x, y);
-    const double here = depth(x, y);
-    const auto isIn = [&](int u, int v) { return u >= 0 && v >= 0 && u < _picture.width && v < _picture.height; };
-    bool ends = false;
-    glm::dvec2 change(0.0);
-    for (const int axis : {0, 1}) {
-        const int n = _picture.neighbour, dx = axis == 0 ? n : 0, dy = n - dx;
-        struct Side {
-            bool seen = false, same = false;
-            double change = 1.0; ///< to there
-            double next = 1.0;   ///< from there to the one after; the same if that is not seen.
-        } before, after;
-        for (Side* side : {&before, &after}) {
-            const int sign = side == &after ? 1 : -1, u = x + sign * dx, v = y + sign * dy;
-            if (!isIn(u, v) || !(depth(u, v) < 1.0)) continue;
-            const bool next = isIn(u + sign * dx, v + sign * dy);
-            const double to = sign * (depth(u, v) - here);
-            *side = {true, isBlocked(u, v) == own, to,
-                     next ? sign * (depth(u + sign * dx, v + sign * dy) - depth(u, v)) : to};
-        }
-        const bool isNearer = std::abs(after.change) < std::abs(before.change);
-        const Side& best =
-            after.seen && (after.same == before.same || !before.seen ? isNearer : after.same) ? after : before;
-        if (!best.seen) continue;
-        change[axis] = best.change / n;
-        const auto goesOn = [&](const Side& side) {
-            const double most = stepsOff * _picture.step + 0.5 * std::abs(best.change);
-            return side.seen && !side.same && std::abs(side.change - best.change) <= most &&
-                   std::abs(side.next - best.change) <= 2.0 * most;
-        };
-        ends = ends || goesOn(before) || goesOn(after);
-    }
-    if (!ends) return own ? 0.0 : 1.0;
-    int lit = 0, all = 0;
-    const double bend = 0.25 * (std::abs(change.x) + std::abs(change.y));
+    const int n = _picture.neighbour;
+    const auto differs = [&](int u, int v) {
+        return u >= 0 && v >= 0 && u < _picture.width && v < _picture.height && isBlocked(u, v) != own;
+    };
+    const double asMiddle = own ? 0.0 : 1.0;
+    if (!differs(x - n, y) && !differs(x + n, y) && !differs(x, y - n) && !differs(x, y + n)) return asMiddle;
+    const EdgeSlope across = edgeSlope(x, y, {n, 0}, isBlocked), up = edgeSlope(x, y, {0, n}, isBlocked);
+    if (!across.ends && !up.ends) return asMiddle;
+    const glm::dvec2 change(across.change, up.change);
+    const double bend = 0.25 * (std::abs(change.x) + std::abs(change.y)), here = depth(x, y);
     const Span middle = span(x, y, glm::dvec2(0.0), here, bend);
     const int lies = facing(middle, surfaceIn(middle));
+    int lit = 0, all = 0;
     for (int column = 1; column <= 16; ++column) {
         const glm::dvec2 offset = (glm::dvec2(column, 4 * column % 17) - 0.5) / 16.0 - _picture.place;
         const Span place = span(x, y, offset, std::clamp(here + glm::dot(offset, change), 0.0, 1.0), bend);
@@ -229,7 +247,7 @@ double DepthTracer::share(int x, int y, IsBlocked isBlocked) const {
         ++all;
         lit += !blocked(place, startOn(place, surface));
     }
-    return all > 0 ? lit / double(all) : own ? 0.0 : 1.0;
+    return all > 0 ? lit / double(all) : asMiddle;
 }
 
 /// True if the way from a to b, or beyond it if `endless`, meets the box.
@@ -325,9 +343,8 @@ std::vector<std::uint8_t> depthBufferShares(const RayScene& scene, const DepthPi
     const auto isBlocked = [&](int x, int y) { return isSet(bits.data() + stride * std::size_t(y), x); };
     tbb::parallel_for(0, picture.height, [&](int y) {
         std::uint8_t* row = shares.data() + std::size_t(picture.width) * std::size_t(y);
-        for (int x = 0; x < picture.width; ++x) {
+        for (int x = 0; x < picture.width; ++x)
             row[x] = static_cast<std::uint8_t>(std::lround(255.0 * tracer.share(x, y, isBlocked)));
-        }
     });
     return shares;
 }

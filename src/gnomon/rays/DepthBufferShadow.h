@@ -66,12 +66,11 @@ TracedBits depthBufferShadow(const RayScene& scene, const DepthPicture& picture,
                              const glm::dvec4& light, const FormerShadow* former = nullptr);
 
 /// What share of a light reaches pixels, 0 … 255, row by row: all of it or nothing as depthBufferShadow() says, but where one of the
-/// four neighbours is otherwise. There by 16 rays from places in the pixel, on the plane of the surface that is seen in its
-/// middle: nothing comes from beyond the edge of what is seen.
+/// four neighbours is otherwise. There by 16 rays from places in the pixel, on the surface that is seen in its middle: nothing comes from beyond the edge of what is seen.
 ///
 /// @param bits  as depthBufferShadow() has found them of the same picture.
 ///
-/// Cost    16 rays for a pixel at an edge, on all cores.
+/// Cost    32 rays for a pixel at an edge, half of them short, on all cores.
 /// Limits  a shadow thinner than a pixel, which no neighbour's ray meets, is no edge. Steps of 1/16.
 std::vector<std::uint8_t> depthBufferShares(const RayScene& scene, const DepthPicture& picture,
                                             const glm::dmat4& clipFromScene, const glm::dvec4& light,
