@@ -173,14 +173,37 @@ bool Compositor::composeDirectly(const Jobs& wanted) {
 void Compositor::relight(const Jobs& wanted) {
     const MarkedLights lights = _marks.lightsOf(wanted);
     const unsigned lightBits = bitsOf(lights);
-    const ScreenRect bounds = screenBoundsOf(jobsOf(lights));
+    const Jobs jobs = jobsOf(lights);
+    if (jobs.empty()) return;
+    const ScreenRect bounds = screenBoundsOf(jobs);
     _marks.clearLeftovers(lightBits);
     _marks.mark(lights);
+    if (jobs.front()->hidingOnly) darkenUnlit(lights);
     resetMarked(lightBits, bounds);
     std::vector<ReplayedLeaf> catchers;
     for (unsigned lost = 1; lost < (1u << lights.size()); ++lost) replay(subsetOf(lights, lost), lightBits, catchers);
-    if (!catchers.empty()) darken(catchers, lightBits, jobsOf(lights));
+    if (!catchers.empty()) darken(catchers, lightBits, jobs);
     _draw.clear(lightBits, bounds);
+}
+
+/// What blends and cannot lose a light takes the factor where it hides what is behind, once, and its marks go: drawn again in
+/// its own colour, it would be mixed with what is behind.
+void Compositor::darkenUnlit(const MarkedLights& lights) {
+    const Jobs jobs = jobsOf(lights);
+    LeafReplay::Overlay overlay;
+    overlay.stencilFunction = GL_NOTEQUAL;
+    overlay.test = overlay.write = bitsOf(lights);
+    overlay.equalDepth = overlay.hidingOnly = true;
+    overlay.bounds = screenBoundsOf(jobs);
+    overlay.color = LeafReplay::Color::Factor;
+    overlay.factor = jobs.front()->dark;
+    overlay.lightUniforms = lightUniformsOf(jobs);
+    LeafReplay replay(_draw, overlay);
+    for (const ReplayedLeaf& leaf : leavesToReplay(_draw, jobs, overlay.bounds)) {
+        if (!leaf.lost || isOpaque(leaf.entry.leaf->_parent) || replay.canBeRelit(leaf.entry, leaf.lost)) continue;
+        replay.draw(leaf.entry);
+        reportNotRelit(*leaf.entry.leaf, jobs);
+    }
 }
 
 /// What shows where a catcher is seen loses the light by the factor.
@@ -216,7 +239,6 @@ void Compositor::replay(const MarkedLights& dark, unsigned lightBits, std::vecto
 
 void Compositor::replay(const std::vector<ReplayedLeaf>& leaves, LeafReplay::Overlay overlay, const Jobs& jobs) {
     overlay.unlit = jobs.front()->dark;
-    overlay.onHiding = jobs.front()->hidingOnly;
     overlay.lightUniforms = lightUniformsOf(jobs);
     LeafReplay replay(_draw, overlay);
     for (const ReplayedLeaf& leaf : leaves) replay.draw(leaf.entry, leaf.lost);
@@ -258,7 +280,9 @@ void Compositor::blend(const Jobs& jobs, float dark) {
 }
 
 void Compositor::writeBackground(ScreenPass& screen) const {
-    if (FrameColorCopy* saved = PrepassBin::savedColors(_draw.stage)) {
+    if (_draw.saved)
+        _draw.saved->drawColors(screen);
+    else if (FrameColorCopy* saved = PrepassBin::savedColors(_draw.stage)) {
         screen.beginReplace();
         saved->draw(_draw.state);
         screen.endMix();
@@ -268,6 +292,7 @@ void Compositor::writeBackground(ScreenPass& screen) const {
 
 /// Interlaced stereo clears colours once for both eyes.
 bool Compositor::isBackgroundKnown() const {
+    if (_draw.saved) return _draw.saved->hasColors();
     return (_draw.stage.getClearMask() & GL_COLOR_BUFFER_BIT) || _draw.pattern.value ||
            PrepassBin::savedColors(_draw.stage);
 }
@@ -277,7 +302,7 @@ void Compositor::resetMarked(unsigned where, const ScreenRect& bounds) const {
     _draw.pass(bounds, [&](ScreenPass& screen) {
         screen.stencilAny(where);
         if (readsBack(_draw.leaves)) writeBackground(screen);
-        screen.writeFarDepth();
+        _draw.saved ? void(_draw.saved->drawDepths(screen)) : screen.writeFarDepth();
     });
 }
 

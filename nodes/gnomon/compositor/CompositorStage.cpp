@@ -30,7 +30,8 @@ CompositorStage::CompositorStage(osg::RenderInfo& info, osgUtil::RenderStage& of
       options(drawn.options),
       materials(kept),
       stencilIsZero(drawn.stencilIsZero),
-      pattern(StencilPattern::read(state)) {
+      pattern(StencilPattern::read(state)),
+      saved(drawn.saved) {
     GLint stencil = 0, alpha = 0;
     glGetIntegerv(GL_STENCIL_BITS, &stencil);
     glGetIntegerv(GL_ALPHA_BITS, &alpha);

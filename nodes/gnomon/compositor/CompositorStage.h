@@ -3,6 +3,7 @@
 #include <gnomon/CompositorOptions.h>
 #include <gnomon/ScreenPass.h>
 #include <gnomon/compositor/DrawnLeaves.h>
+#include <gnomon/compositor/SavedFrame.h>
 #include <gnomon/compositor/VastLeaves.h>
 #include <gnomon/gl/GlState.h>
 
@@ -22,8 +23,9 @@ class MaterialHistory;
 struct DrawnStage {
     std::vector<DrawnLeaf> leaves; ///< that it has drawn before, in order.
     CompositorOptions options;
-    bool stencilIsZero;       ///< it is known to be.
-    std::size_t bitsOfLights; ///< how many stencil bits marks take, 2 to 8; others are counters.
+    bool stencilIsZero;          ///< it is known to be.
+    std::size_t bitsOfLights;    ///< how many stencil bits marks take, 2 to 8; others are counters.
+    SavedFrame* saved = nullptr; ///< what stood before the first of the leaves; null: what the stage clears to.
 };
 
 /// One stage while the compositor draws in it: what was drawn before, and what its framebuffer offers.
@@ -61,6 +63,7 @@ public:
     bool hasStencil = false, hasAlpha = false;
     std::vector<unsigned> bits; ///< of the stencil buffer, those that are free, the highest first.
     unsigned counters = 0;      ///< some of them, see ScreenPass::counters(); 0 if there are none.
+    SavedFrame* const saved;    ///< see DrawnStage.
     std::vector<VastLeaf> vast; ///< see VastLeaf; TrueDepths puts them right.
     unsigned vastBit = 0;       ///< for it; not among `bits`.
 

@@ -20,6 +20,9 @@
 
 namespace gnomon {
 
+/// What blends hides what is behind it where its alpha is this or more: of the two it shows the more of.
+constexpr float hidingAlpha = 0.5f;
+
 /// A leaf that a stage draws, and the innermost bin that draws it.
 struct DrawnLeaf {
     osgUtil::RenderLeaf* leaf;

@@ -63,37 +63,39 @@ const Attribute* textureAttribute(const osgUtil::StateGraph* graph, unsigned uni
     return nullptr;
 }
 
-/// Which alphas there are, as a framebuffer draws them.
+/// The least and the largest alpha of something.
 struct Alphas {
-    bool one = true, between = false, zero = false;
-    void add(float alpha) { (alpha >= opaqueAlpha ? one : alpha <= 1.0f - opaqueAlpha ? zero : between) = true; }
-    /// @param blurred  they run into one another.
-    bool areTorn(bool blurred) const { return one && (between || (blurred && zero)); }
+    float least = 1.0f, most = 1.0f;
+
+    void add(float alpha) {
+        least = std::min(least, alpha);
+        most = std::max(most, alpha);
+    }
+    Alphas operator*(const Alphas& other) const { return {least * other.least, most * other.most}; }
+    bool areSolid() const { return least >= opaqueAlpha; }
+    /// True if there is more than one, and one may hide what is behind.
+    bool areCut() const { return !areSolid() && most > least && most >= hidingAlpha; }
 };
+
+constexpr Alphas none{1.0f, 0.0f};
+constexpr Alphas any{0.0f, 1.0f};
 
 Alphas alphasIn(const osg::Image& image) {
     if (!image.isImageTranslucent()) return {};
-    Alphas result{false};
-    for (int row = 0; row < image.t() && !result.areTorn(false); ++row)
+    Alphas result = none;
+    for (int row = 0; row < image.t() && !(result.least <= 0.0f && result.most >= 1.0f); ++row)
         for (int column = 0; column < image.s(); ++column)
             result.add(image.getColor(unsigned(column), unsigned(row)).a());
     return result;
 }
 
 Alphas alphasIn(const osg::Array& array) {
-    Alphas result{false};
+    Alphas result = none;
     if (const auto* floats = dynamic_cast<const osg::Vec4Array*>(&array))
         for (const osg::Vec4& color : *floats) result.add(color.a());
     else if (const auto* bytes = dynamic_cast<const osg::Vec4ubArray*>(&array))
         for (const osg::Vec4ub& color : *bytes) result.add(float(color.a()) / 255.0f);
-    else
-        return {};
-    return result;
-}
-
-bool isBlurred(const osg::Texture& texture) {
-    return texture.getFilter(osg::Texture::MIN_FILTER) != osg::Texture::NEAREST ||
-           texture.getFilter(osg::Texture::MAG_FILTER) != osg::Texture::NEAREST;
+    return result.most < result.least ? Alphas() : result;
 }
 
 /// Alphas of images and arrays, looked through once, until these say that they have changed.
@@ -146,50 +148,51 @@ bool showsColors(const osgUtil::StateGraph* graph) {
                                                       material->getColorMode() == osg::Material::AMBIENT_AND_DIFFUSE));
 }
 
-/// True if an alpha of 1 may be anywhere. Programs may do anything, textures but multiply.
-bool mayBeSolid(const osgUtil::RenderLeaf& leaf, KnownAlphas& known) {
+/// Of what a leaf that blends draws. Programs may do anything, textures but multiply.
+Alphas alphasOf(const osgUtil::RenderLeaf& leaf, KnownAlphas& known) {
     const osgUtil::StateGraph* graph = leaf._parent;
-    if (resolvedAttribute(graph, A::PROGRAM)) return true;
+    if (resolvedAttribute(graph, A::PROGRAM)) return any;
+    Alphas result;
     for (unsigned unit = 0, end = textureUnits(graph); unit < end; ++unit) {
         const auto* texture = textureAttribute<osg::Texture>(graph, unit, A::TEXTURE);
         const auto* environment = textureAttribute<osg::StateAttribute>(graph, unit, A::TEXENV);
         const auto* plain = dynamic_cast<const osg::TexEnv*>(environment); // the other combines
-        if (!texture) continue;
-        if (environment && !(plain && plain->getMode() == osg::TexEnv::MODULATE)) return true;
-        if (!known.of(*texture, texture->getImage(0)).one) return false;
+        if (!texture || (plain && plain->getMode() == osg::TexEnv::DECAL)) continue;
+        if (environment && !(plain && plain->getMode() == osg::TexEnv::MODULATE)) return any;
+        result = result * known.of(*texture, texture->getImage(0));
     }
     const osg::Array* colors = colorsOf(*leaf._drawable);
-    if (colors && showsColors(graph)) {
-        const unsigned number = colors->getNumElements();
-        return number == 0 || (number == 1 ? alphasIn(*colors) : known.of(*colors, colors)).one; // one is read at once
-    }
     const auto* material = resolved<osg::Material>(graph, A::MATERIAL);
-    if (!isOn(graph, GL_LIGHTING) || !material) return true;
-    return std::max(material->getDiffuse(osg::Material::FRONT).a(), material->getDiffuse(osg::Material::BACK).a()) >=
-           opaqueAlpha;
-}
-
-/// True if an alpha of 1 stands beside lesser ones; not if each pixel is either all there or clear.
-bool isTorn(const osgUtil::RenderLeaf& leaf, KnownAlphas& known) {
-    const osgUtil::StateGraph* graph = leaf._parent;
-    if (resolvedAttribute(graph, A::PROGRAM)) return false;
-    for (unsigned unit = 0, end = textureUnits(graph); unit < end; ++unit) {
-        const auto* texture = textureAttribute<osg::Texture>(graph, unit, A::TEXTURE);
-        const auto* environment = textureAttribute<osg::TexEnv>(graph, unit, A::TEXENV);
-        const bool counts = texture && !(environment && environment->getMode() == osg::TexEnv::DECAL);
-        if (counts && known.of(*texture, texture->getImage(0)).areTorn(isBlurred(*texture))) return true;
+    if (colors && showsColors(graph)) // one is read at once
+        result = result * (colors->getNumElements() <= 1 ? alphasIn(*colors) : known.of(*colors, colors));
+    else if (isOn(graph, GL_LIGHTING) && material) {
+        const float alpha =
+            std::max(material->getDiffuse(osg::Material::FRONT).a(), material->getDiffuse(osg::Material::BACK).a());
+        result = result * Alphas{alpha, alpha};
     }
-    const osg::Array* colors = colorsOf(*leaf._drawable);
-    return colors && colors->getNumElements() > 1 && showsColors(graph) && known.of(*colors, colors).areTorn(true);
+    return result;
 }
 
 /// What has no bounds draws something else than surfaces: a user interface, for one, which must not be drawn twice.
-bool isSurface(const osgUtil::RenderLeaf& leaf) {
-    return leaf._drawable->getBoundingBox().valid() && writesDepth(leaf._parent);
-}
+bool isSurface(const osgUtil::RenderLeaf& leaf) { return leaf._drawable->getBoundingBox().valid(); }
 
-bool blendHides(const osgUtil::RenderLeaf& leaf, KnownAlphas& known) {
-    return !isOn(leaf._parent, GL_BLEND) || (alphaHides(leaf._parent) && mayBeSolid(leaf, known));
+enum class Kind { None, Combined, Clear, Cut, Solid };
+
+Kind kindOf(const osgUtil::RenderLeaf& leaf, KnownAlphas& known) {
+    const osgUtil::StateGraph* graph = leaf._parent;
+    const bool writes = writesDepth(graph);
+    if (!isSurface(leaf)) return Kind::None;
+    if (isOn(graph, GL_COLOR_LOGIC_OP))
+        return !writes ? Kind::None : operationHides(graph) ? Kind::Solid : Kind::Combined;
+    if (!isOn(graph, GL_BLEND)) return writes ? Kind::Solid : Kind::None;
+    const bool hides = alphaHides(graph);
+    if (!hides && !writes) return Kind::None;
+    const Alphas alphas = hides ? alphasOf(leaf, known) : none;
+    if (writes && alphas.areSolid()) return Kind::Solid;
+    const bool mayBeCut =
+        leaf._drawable->asGeometry() && (writes || (isShaded(graph) && isOn(graph, GL_DEPTH_TEST, true)));
+    if (mayBeCut && alphas.areCut()) return Kind::Cut;
+    return !writes ? Kind::None : alphas.areCut() ? Kind::Solid : Kind::Clear;
 }
 
 } // namespace
@@ -200,18 +203,13 @@ LateReceivers lateReceivers(osgUtil::RenderStage& stage, int number) {
     const auto& bins = stage.getRenderBinList();
     for (auto bin = bins.lower_bound(number); bin != bins.end(); ++bin)
         for (const DrawnLeaf& entry : leavesIn(*bin->second)) {
-            if (!isSurface(*entry.leaf)) continue;
-            const bool combines = isOn(entry.leaf->_parent, GL_COLOR_LOGIC_OP);
-            if (combines && !operationHides(entry.leaf->_parent)) {
-                late.combined.push_back(entry);
-            } else if (!combines && !blendHides(*entry.leaf, known)) {
-                late.clear.push_back(entry);
-            } else if (!combines && isOn(entry.leaf->_parent, GL_BLEND) && isTorn(*entry.leaf, known)) {
-                late.torn.push_back(entry);
-            } else {
-                late.leaves.push_back(entry);
-                late.last = bin->second.get();
-            }
+            const Kind kind = kindOf(*entry.leaf, known);
+            if (kind == Kind::Combined) late.combined.push_back(entry);
+            if (kind == Kind::Clear) late.clear.push_back(entry);
+            if (kind != Kind::Cut && kind != Kind::Solid) continue;
+            late.leaves.push_back(entry);
+            late.areCut = late.areCut || kind == Kind::Cut;
+            late.last = bin->second.get();
         }
     return late;
 }

@@ -6,16 +6,16 @@ namespace gnomon {
 
 /// Leaves of a stage that are drawn after its opaque bins and receive all the same.
 ///
-/// They have bounds and write depth, and neither a constant alpha nor that of a texture lets what is behind shine through. Loaders
-/// put whatever has a texture with an alpha channel among the transparent things.
+/// They hide what is behind, all over or where their alpha is a half or more: leaves and nets do. Loaders put whatever has a
+/// texture with an alpha channel among the transparent things. What has one alpha below 1 all over, as glass has, does not.
 ///
-/// Limits  of a program's alpha nothing is known: such leaves receive where it is 1.
+/// Limits  of a program's alpha nothing is known: such leaves may be clear anywhere.
 struct LateReceivers {
     std::vector<DrawnLeaf> leaves;
     std::vector<DrawnLeaf>
         combined;                 ///< do not receive, because a logic operation combines them with what stands behind.
-    std::vector<DrawnLeaf> torn;  ///< do not receive, because their alpha is 1 in some parts only.
     std::vector<DrawnLeaf> clear; ///< do not receive, because what stands behind shines through all of them.
+    bool areCut = false;          ///< some are clear in parts: the depth that stands there may be theirs all the same.
     osgUtil::RenderBin* last = nullptr; ///< the stage's last bin that draws some of them; null if there are none.
 };
 

@@ -7,6 +7,7 @@
 #include <gnomon/gl/GlState.h>
 #include <gnomon/gl/TriangleClusters.h>
 
+#include <osg/AlphaFunc>
 #include <osg/ColorMask>
 #include <osg/FragmentProgram>
 #include <osg/FrontFace>
@@ -375,8 +376,7 @@ void LeafReplay::drawOnce(const osgUtil::RenderLeaf& leaf) {
 /// Its own colour times a factor, whatever colour stands; a leaf that itself reads what stands stays as it is.
 void LeafReplay::drawFaded(const osgUtil::RenderLeaf& leaf) {
     _notRelit.push_back(&leaf);
-    const bool fades = _overlay.color == Color::Replace &&
-                       (_overlay.onHiding || !_state.getLastAppliedMode(GL_BLEND)) &&
+    const bool fades = _overlay.color == Color::Replace && !_state.getLastAppliedMode(GL_BLEND) &&
                        !_state.getLastAppliedMode(GL_COLOR_LOGIC_OP);
     if (fades) {
         addBlended(_state, GL_CONSTANT_COLOR, GL_ZERO);
@@ -409,14 +409,23 @@ void LeafReplay::layOver() {
         glDepthMask(GL_FALSE);
         if (_overlay.equalDepth) glDepthFunc(GL_EQUAL);
     }
+    if (_overlay.writesDepth) glDepthMask(GL_TRUE);
     if (_overlay.mirrored) layMirrorOver();
     layColorOver();
 }
 
-/// An alpha that a framebuffer of eight bits takes for 1.
+/// What the leaf's own test leaves of that. One that lets low alphas pass is there for what does not hide.
 void LeafReplay::layAlphaOver() {
+    using Test = osg::AlphaFunc;
+    const bool tests = _state.getLastAppliedMode(GL_ALPHA_TEST);
+    const auto* own =
+        tests ? static_cast<const Test*>(_state.getLastAppliedAttribute(osg::StateAttribute::ALPHAFUNC)) : nullptr;
+    const Test::ComparisonFunction function = own ? own->getFunction() : Test::ALWAYS;
+    const bool takesHigh = function == Test::GREATER || function == Test::GEQUAL;
+    const bool takesAll = function == Test::ALWAYS || function == Test::NOTEQUAL;
     glEnable(GL_ALPHA_TEST);
-    glAlphaFunc(GL_GEQUAL, 1.0f - 0.5f / 255.0f);
+    if (takesHigh && own->getReferenceValue() >= hidingAlpha) return;
+    glAlphaFunc(takesHigh || takesAll ? GL_GEQUAL : GL_NEVER, hidingAlpha);
 }
 
 void LeafReplay::forgetAlpha() {
@@ -528,7 +537,7 @@ std::vector<ReplayedLeaf> leavesToReplay(const CompositorStage& draw, const std:
     const std::size_t last = skips ? lastReceiver(leaves, jobs) : leaves.size();
     std::vector<ReplayedLeaf> result;
     const DrawnLeaf* selfDrawn = nullptr; // draws itself and is left out: it may have set the colour of what has none
-    bool stands = false;                  // something that writes depth
+    bool stands = draw.saved;             // something that writes depth
     Catchers catchers(leaves);
     for (std::size_t i = 0; i < leaves.size(); ++i) {
         const osgUtil::RenderLeaf& leaf = *leaves[i].leaf;

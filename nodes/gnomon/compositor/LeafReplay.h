@@ -79,8 +79,8 @@ public:
         unsigned write = 0;             ///< bits that become those of `reference` where drawn.
         bool equalDepth = false;        ///< only where the leaf's depth is the one that stands; depth is not written.
         bool keepDepth = false;         ///< depth is not written.
-        bool hidingOnly = false;        ///< what blends is drawn only where its alpha is 1.
-        bool onHiding = false;          ///< a leaf that loses light hides what is behind, even if it blends.
+        bool writesDepth = false;       ///< it is, whatever the leaf says.
+        bool hidingOnly = false;        ///< what blends is drawn only where its alpha is a half or more.
         bool mirrored = false;          ///< fronts are seen as backs, and OpenGL's last clip plane cuts.
         std::vector<glm::ivec2> shifts; ///< pixels by which it is drawn, once each, cut to the viewport; empty: once.
         Color color = Color::Replace;

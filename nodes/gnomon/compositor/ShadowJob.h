@@ -49,6 +49,7 @@ struct ShadowJob {
     std::shared_ptr<const LeafSet> receivers;      ///< see ViewFrame.
     std::shared_ptr<const LeafSet> moved; ///< leaves of the view that a program moves out of their boxes; null: none.
     bool hidingOnly = false; ///< a receiver loses the light only where it hides what is behind, see LateReceivers.
+    bool isCut = false; ///< that is not everywhere. Its edges are hard: what is seen through a pixel has other shares.
     std::vector<LightUniform> lightUniforms; ///< of the group.
     bool findsEdges =
         false; ///< shares of light are found where marks end, see Mark::edges(); of the frame that is drawn to.
@@ -56,7 +57,7 @@ struct ShadowJob {
     /// True if the leaf is of the named receiver.
     bool isNamed(const osgUtil::RenderLeaf* leaf) const { return receivers && receivers->count(leaf) > 0; }
     /// True if pixels may have a part of the light.
-    bool fades() const { return findsEdges || mark->kind() == Mark::Kind::Fades; }
+    bool fades() const { return !isCut && (findsEdges || mark->kind() == Mark::Kind::Fades); }
     /// The mark, if it is for programs alone; else null.
     const ProgramMark* programMark() const { return dynamic_cast<const ProgramMark*>(mark.get()); }
     /// True if the leaf loses the light where marked: it is of the named receiver, or with none named, of this lens.

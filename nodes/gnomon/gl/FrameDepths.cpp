@@ -210,7 +210,7 @@ void FrameDepths::hold(osg::State& state, const PixelRect& pixels) {
 }
 
 void FrameDepths::forget(const osg::State& state) {
-    if (const std::shared_ptr<FrameDepths> depths = sharedIfAny()) depths->of(state)->held = {};
+    if (const std::shared_ptr<FrameDepths> depths = sharedIfAny()) depths->drop(state);
 }
 
 std::shared_ptr<FrameDepths::Kept> FrameDepths::of(const osg::State& state) {

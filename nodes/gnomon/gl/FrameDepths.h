@@ -88,6 +88,8 @@ public:
     static void hold(osg::State& state, const PixelRect& pixels);
     /// What has been copied stands no more: depth has been written.
     static void forget(const osg::State& state);
+    /// The same of this one.
+    void drop(const osg::State& state) { of(state)->held = {}; }
 
     /// Depths of these pixels of the framebuffer that is drawn to, in the same columns of the texture.
     Copy copy(osg::State& state, const PixelRect& pixels);

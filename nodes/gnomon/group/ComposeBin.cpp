@@ -27,6 +27,9 @@ namespace {
 
 constexpr int lateNumber = 1 << 30; // below another bin, after all others there
 constexpr const char* binName = "gnomon::ComposeBin";
+constexpr const char* noFrameForCut = "in interlaced stereo, and where OpenGL makes no framebuffer objects, what is "
+                                      "drawn in a bin above 8 receives no shadow if "
+                                      "any of it is clear in parts. Draw it in a bin below 8.";
 
 /// Makes the bin known to osgUtil, which creates bins by name.
 const bool registered = [] {
@@ -86,6 +89,8 @@ void ComposeBin::reset() {
     _holdsFrame = false;
     _sharesStencil = false;
     _options = {};
+    _saves = nullptr;
+    _since.reset();
     _below.reset();
 }
 
@@ -114,6 +119,16 @@ void ComposeBin::handOn(std::vector<ShadowJob>& jobs, ComposeBin& to, int below)
     jobs.clear();
 }
 
+void ComposeBin::saveFor(ComposeBin& to, const std::vector<DrawnLeaf>& hiding) {
+    _saves = &keptBy<SavedFrame>(*getStage());
+    to._since = DrawnSince{_saves, getBinNum(), hiding};
+}
+
+void ComposeBin::releaseGLObjects(osg::State* state) const {
+    osgUtil::RenderBin::releaseGLObjects(state);
+    if (_saves) _saves->releaseGLObjects(state);
+}
+
 /// Leaves that are DYNAMIC are drawn again, and casters draw themselves: the frame is not done with them before this bin is.
 unsigned ComposeBin::computeNumberOfDynamicRenderLeaves() const {
     return osgUtil::RenderBin::computeNumberOfDynamicRenderLeaves() + (holdsFrame() ? 1u : 0u);
@@ -136,6 +151,8 @@ std::string ComposeBin::compose(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf
     if (!never.empty()) return never;
     const KnownStates states;
     std::vector<DrawnLeaf> leaves = leavesBelow(*getStage(), _below.value_or(getBinNum()));
+    if (_since)
+        leaves.erase(leaves.begin(), leaves.begin() + std::ptrdiff_t(leavesBelow(*getStage(), _since->number).size()));
     MaterialHistory materials(state, *getStage(), PrepassBin::followsDefault(*getStage()));
     osgUtil::RenderLeaf* const last = previous;
     popLeafState(state, previous);
@@ -144,6 +161,10 @@ std::string ComposeBin::compose(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf
     learnQuadCut(); // for the next cull
     for (const osg::ref_ptr<DrawWatch>& watch : _watches) watch->begin(renderInfo);
     const std::string cause = compose(renderInfo, std::move(leaves), materials);
+    if (_saves) {
+        const CleanState clean(state, getStage()->getViewport());
+        _saves->save(state, *getStage()->getViewport());
+    }
     if (last) pushLeafState(state, *last);
     previous = last;
     materials.restore();
@@ -164,11 +185,14 @@ std::string ComposeBin::compose(osg::RenderInfo& renderInfo, std::vector<DrawnLe
     CompositorOptions options = _options;
     if (target.isOwn()) options.reservedStencilBits = 0;
     const bool stencilIsZero = target.isOwn() || isStencilZero(leaves);
-    const CompositorStage draw(renderInfo, *getStage(),
-                               {std::move(leaves), options, stencilIsZero, bitsOfLights(_jobs)}, materials);
-    const std::string cause = needs.stencilBits > 0 ? whyNotComposed(draw) : "";
+    const CompositorStage draw(
+        renderInfo, *getStage(),
+        {std::move(leaves), options, stencilIsZero, bitsOfLights(_jobs), _since ? _since->frame.get() : nullptr},
+        materials);
+    std::string cause = needs.stencilBits > 0 ? whyNotComposed(draw) : "";
+    if (cause.empty() && _since) cause = target.isOwn() ? drawHidingDepths(draw, needs.bounds) : noFrameForCut;
     if (cause.empty()) {
-        if (target.lacksDepth()) {
+        if (!_since && target.lacksDepth()) {
             drawDepths(draw, needs.bounds, _jobs.empty() ? nullptr : _jobs.front().moved.get());
             if (std::any_of(draw.leaves.begin(), draw.leaves.end(), mayStencilHide))
                 for (const ShadowJob& job : _jobs)
@@ -184,14 +208,30 @@ std::string ComposeBin::compose(osg::RenderInfo& renderInfo, std::vector<DrawnLe
 
 TargetNeeds ComposeBin::needs(const std::vector<DrawnLeaf>& leaves) const {
     TargetNeeds needs;
-    if (_effects.empty() && _jobs.size() == 1 && needsNoMarks(_jobs.front(), leaves) &&
+    if (!_since && _effects.empty() && _jobs.size() == 1 && needsNoMarks(_jobs.front(), leaves) &&
         vastLeaves(leaves, *getStage()->getViewport()).empty())
         return needs;
     needs = needsOf(_jobs);
     needs.reserved = _options.reservedStencilBits;
-    needs.ownStencil = _sharesStencil && needs.reserved == 0;
+    needs.ownStencil = _since || (_sharesStencil && needs.reserved == 0);
     if (!_effects.empty()) needs.bounds = wholeScreen;
     return needs;
+}
+
+/// Depths of what hides what is behind it, where it does, over those that were saved. @return as compose().
+std::string ComposeBin::drawHidingDepths(const CompositorStage& draw, const ScreenRect& bounds) const {
+    std::string cause;
+    draw.pass(bounds, [&](ScreenPass& screen) { cause = _since->frame->drawDepths(screen); });
+    if (!cause.empty()) return cause;
+    LeafReplay::Overlay overlay;
+    overlay.color = LeafReplay::Color::None;
+    overlay.hidingOnly = overlay.writesDepth = true;
+    overlay.bounds = bounds;
+    LeafReplay replay(draw, overlay);
+    TouchTest touches(bounds, _jobs.front().moved.get());
+    for (const DrawnLeaf& entry : _since->hiding)
+        if (touches(*entry.leaf)) replay.draw(entry);
+    return "";
 }
 
 /// As the stage draws. @param leaves  drawn since.

@@ -4,6 +4,7 @@
 #include <gnomon/compositor/CompositorTarget.h>
 #include <gnomon/compositor/DrawnLeaves.h>
 #include <gnomon/compositor/MaterialHistory.h>
+#include <gnomon/compositor/SavedFrame.h>
 #include <gnomon/compositor/ShadowJob.h>
 #include <gnomon/compositor/ViewEffect.h>
 
@@ -39,13 +40,17 @@ public:
     void sortImplementation() override;
     void drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous) override;
     unsigned computeNumberOfDynamicRenderLeaves() const override;
+    void releaseGLObjects(osg::State* state) const override;
 
 protected:
     ~ComposeBin() override = default;
 
-    bool isIdle() const { return _jobs.empty() && _effects.empty() && _waiting.empty(); }
+    bool isIdle() const { return _jobs.empty() && _effects.empty() && _waiting.empty() && !_saves; }
     /// Hands jobs to another bin, which composes what the stage draws before bin number `below`.
     void handOn(std::vector<ShadowJob>& jobs, ComposeBin& to, int below) const;
+    /// Saves the frame for another bin, which then composes what is drawn from this bin on over it.
+    /// @param hiding  leaves of those that hide what is behind, all over or in parts.
+    void saveFor(ComposeBin& to, const std::vector<DrawnLeaf>& hiding);
 
     std::vector<ShadowJob> _jobs;
     std::vector<osg::ref_ptr<ViewEffect>> _effects;
@@ -54,8 +59,16 @@ protected:
     bool _holdsFrame = false;          ///< what it draws may be another in the next frame.
     bool _sharesStencil = false;       ///< leaves of the stage test or mark the stencil buffer themselves.
     CompositorOptions _options;        ///< of all whose jobs these are.
+    osg::ref_ptr<SavedFrame> _saves;   ///< of what stands once all is composed; null: nobody asks for it.
 
 private:
+    /// What is drawn since another bin saved the frame, where some of it is clear in parts.
+    struct DrawnSince {
+        osg::ref_ptr<SavedFrame> frame;
+        int number = 0;                  ///< of that bin.
+        std::vector<DrawnLeaf> hiding{}; ///< leaves that hide what is behind, where they do.
+    };
+    std::string drawHidingDepths(const CompositorStage& draw, const ScreenRect& bounds) const;
     bool holdsFrame() const { return _holdsFrame && !isIdle(); }
     void sortAsAsked();
     bool isStencilZero(const std::vector<DrawnLeaf>& leaves) const;
@@ -66,7 +79,8 @@ private:
     std::optional<double> drawStartIfWatched() const;
     void recordDraw(double begin) const;
 
-    std::optional<int> _below; ///< nullopt: composes what the stage draws before this bin.
+    std::optional<DrawnSince> _since; ///< nullopt: all that the stage has drawn is drawn again.
+    std::optional<int> _below;        ///< nullopt: composes what the stage draws before this bin.
 };
 
 } // namespace gnomon

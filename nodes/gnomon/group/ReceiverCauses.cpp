@@ -33,11 +33,6 @@ void reportSeenThrough(const TechniqueInStage& asked) {
         entry.report("a logic operation combines '" + name +
                      "' with what stands behind it, in a bin above 8, so it receives no shadow. Draw it "
                      "in a bin below 8, or switch GL_COLOR_LOGIC_OP off.");
-    if (const std::string name = firstOf(drawn.late.torn); !name.empty())
-        entry.report("'" + name +
-                     "' blends by an alpha that is 1 in some parts only, in a bin above 8, so it "
-                     "receives no shadow. Draw it in a bin below 8, or without GL_BLEND by an "
-                     "osg::AlphaFunc.");
     if (const std::string name = firstOf(drawn.late.clear); !name.empty())
         entry.report("'" + name +
                      "' blends with what stands behind it, so it is as bright as without shadows; what "

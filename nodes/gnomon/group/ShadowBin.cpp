@@ -210,7 +210,7 @@ ViewFrame viewOf(ViewFrame view, const TechniqueInStage& asked, const ReceiverPa
     bool written = true;
     for (const osgUtil::RenderLeaf* leaf : part.leaves) {
         if (leaf->_parent != graph) written = writesDepth(graph = leaf->_parent);
-        if (written) view.seen.push_back(leaf);
+        if (written || part.late) view.seen.push_back(leaf);
     }
     if (view.seen.empty()) view.seen = part.leaves;
     const auto isMoved = [&asked](const auto* leaf) { return asked.drawn.programs.moves(*leaf); };
@@ -320,8 +320,13 @@ void ShadowBin::askTechniques() {
     }
     saveColorsIfBlended(drawn);
     if (!_lateJobs.empty()) {
-        for (ShadowJob& job : _lateJobs) job.hidingOnly = true;
-        handOn(_lateJobs, after(*drawn.late.last), drawn.late.last->getBinNum() + 1);
+        for (ShadowJob& job : _lateJobs) {
+            job.hidingOnly = true;
+            job.isCut = drawn.late.areCut;
+        }
+        ComposeBin& late = after(*drawn.late.last);
+        handOn(_lateJobs, late, drawn.late.last->getBinNum() + 1);
+        if (drawn.late.areCut) saveFor(late, drawn.late.leaves);
     }
     if (clear && !_jobs.empty()) handOn(_jobs, after(*clear->before), clear->by->getBinNum());
 }
@@ -351,8 +356,9 @@ void ShadowBin::saveColorsIfBlended(const StageLeaves& drawn) {
         return std::any_of(jobs.begin(), jobs.end(), [](const ShadowJob& job) { return job.relight; });
     };
     if (getStage()->getClearMask() & GL_COLOR_BUFFER_BIT) return;
-    const bool blended = relights(_lateJobs) ? readsBack(leavesBelow(*getStage(), drawn.late.last->getBinNum() + 1))
-                                             : relights(_jobs) && readsBack(drawn.early);
+    const bool blended = relights(_lateJobs) && !drawn.late.areCut
+                             ? readsBack(leavesBelow(*getStage(), drawn.late.last->getBinNum() + 1))
+                             : relights(_jobs) && readsBack(drawn.early);
     if (blended) PrepassBin::saveColors(*getStage());
 }
 

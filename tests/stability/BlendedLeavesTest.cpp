@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+// A sheet that blends, clear in parts, as the leaves of trees and the wires of fences are drawn: late, by the alpha of a texture. What
+// is seen of it receives, and what is seen through it does. Expected: of four pictures without Gnomon, sheet and ground lit or
+// not, the one that the place of each shadow asks for.
+#include "Trial.h"
+
+#include <gnomon/ShadowSpec.h>
+#include <osg/AlphaFunc>
+#include <osg/BlendFunc>
+#include <osg/Depth>
+#include <osg/Image>
+#include <osg/Material>
+#include <osg/Texture2D>
+
+#include <array>
+#include <cmath>
+#include <functional>
+
+using namespace test;
+
+namespace {
+
+GNOMON_BY(BlendedLeaves, By::Traced, By::Map, By::Volume, By::SmoothTraced, By::SmoothVolume);
+
+constexpr double half = 4.0;
+constexpr int size = 128;
+constexpr double sheetHeight = 0.5,
+                 casterHeight = 2.0; // the sun stands at 45 degrees over +x: a shadow is as far to -x
+constexpr double casterWest = -0.6, casterEast = 1.4, casterNorth = 1.5;
+constexpr std::array<unsigned char, 4> alphas = {0, 100, 178, 255}; // clear, less than a half, more, and opaque
+
+/// Stripes along y, each of one alpha, a unit wide.
+osg::ref_ptr<osg::Texture2D> stripes() {
+    const osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(int(alphas.size()), 1, 1, GL_RGBA, GL_UNSIGNED_BYTE);
+    for (std::size_t i = 0; i < alphas.size(); ++i) {
+        std::fill_n(image->data(unsigned(i)), 3, static_cast<unsigned char>(255));
+        image->data(unsigned(i))[3] = alphas[i];
+    }
+    const osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(image);
+    texture->setFilter(osg::Texture::MIN_FILTER, osg::Texture::NEAREST);
+    texture->setFilter(osg::Texture::MAG_FILTER, osg::Texture::NEAREST);
+    for (const auto wrap : {osg::Texture::WRAP_S, osg::Texture::WRAP_T}) texture->setWrap(wrap, osg::Texture::REPEAT);
+    return texture;
+}
+
+double alphaAt(double x) {
+    const double along = x / 4.0 - std::floor(x / 4.0);
+    return alphas[std::size_t(along * 4.0)] / 255.0;
+}
+
+/// Over all of the view, as wide as high; of half the ground's colour.
+osg::ref_ptr<osg::Geode> sheet(double height = sheetHeight) {
+    const osg::ref_ptr<osg::Geode> geode =
+        node(quad({-half, -half, height}, {2 * half, 0, 0}, {0, 2 * half, 0}), "sheet");
+    osg::Geometry& geometry = *geode->getDrawable(0)->asGeometry();
+    const osg::ref_ptr<osg::Vec2Array> places = new osg::Vec2Array;
+    for (const osg::Vec3& vertex : *static_cast<osg::Vec3Array*>(geometry.getVertexArray()))
+        places->push_back({vertex.x() / 4.0f, 0.5f});
+    geometry.setTexCoordArray(0, places, osg::Array::BIND_PER_VERTEX);
+    osg::StateSet& set = *geode->getOrCreateStateSet();
+    set.setTextureAttributeAndModes(0, stripes());
+    set.setMode(GL_BLEND, osg::StateAttribute::ON);
+    set.setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
+    return geode;
+}
+
+/// The root's material with this share of what it reflects of the sun.
+void reflect(osg::Node& node, float share) {
+    const osg::ref_ptr<osg::Material> material = new osg::Material;
+    material->setAmbient(osg::Material::FRONT_AND_BACK, {1.0f, 1.0f, 1.0f, 1.0f});
+    material->setDiffuse(osg::Material::FRONT_AND_BACK, {share, share, share, 1.0f});
+    node.getOrCreateStateSet()->setAttributeAndModes(material);
+}
+
+using Dressed = std::function<void(Scene& scene, osg::Geode& sheet)>;
+void nothing(Scene&, osg::Geode&) {}
+
+struct Leafy {
+    Scene scene;
+    osg::ref_ptr<osg::Geode> sheet, ground, caster;
+};
+
+Leafy build(const Dressed& change = nothing) {
+    Leafy leafy{groundScene({quad({casterWest, -casterNorth, casterHeight}, {casterEast - casterWest, 0, 0},
+                                  {0, 2 * casterNorth, 0})}),
+                sheet(), nullptr, nullptr};
+    leafy.ground = find(*leafy.scene.root, "ground")->asGeode();
+    leafy.caster = leafy.scene.content->getChild(1)->asGeode();
+    leafy.scene.content->addChild(leafy.sheet);
+    change(leafy.scene, *leafy.sheet);
+    return leafy;
+}
+
+/// With shadows of the caster alone.
+Leafy withShadow(gnomon::ShadowCasterGroup::Composite composite, const Dressed& change = nothing) {
+    Leafy leafy = build(change);
+    leafy.scene.addShadow(castingTechnique());
+    leafy.scene.group->setCasters({leafy.caster});
+    leafy.scene.group->setComposite(composite);
+    return leafy;
+}
+
+constexpr auto relit = gnomon::ShadowCasterGroup::RELIGHT, blended = gnomon::ShadowCasterGroup::BLEND;
+
+/// Without Gnomon.
+Picture picture(bool sheetLit, bool groundLit, const Dressed& change = nothing) {
+    Leafy leafy = build(change);
+    reflect(*leafy.sheet, sheetLit ? 1.0f : 0.0f);
+    reflect(*leafy.ground, groundLit ? 1.0f : 0.0f);
+    return render(leafy.scene.root, fromAbove(half, size));
+}
+
+/// Whether the caster's shadow falls there at a height; nullopt within `edge` pixels of its edge.
+std::optional<bool> isShadowed(double x, double y, double height, double edge) {
+    const double fallen = casterHeight - height, pixel = edge * 2.0 * half / size;
+    const double inside = std::min({x + fallen - casterWest, casterEast - x - fallen, casterNorth - std::abs(y)});
+    return std::abs(inside) < pixel ? std::nullopt : std::optional<bool>(inside > 0.0);
+}
+
+/// What a pixel shows: of an alpha, and shadowed at the sheet and at the ground, or not.
+struct Place {
+    std::size_t at;
+    double alpha;
+    bool onSheet, onGround;
+    bool hides() const { return alpha >= 0.5; }
+};
+
+/// Those of which it can be told: off the edges of shadows and beside the caster.
+std::vector<Place> places() {
+    std::vector<Place> all;
+    for (int row = 0; row < size; ++row)
+        for (int column = 0; column < size; ++column) {
+            const double x = ((column + 0.5) / size * 2.0 - 1.0) * half, y = ((row + 0.5) / size * 2.0 - 1.0) * half;
+            const auto onSheet = isShadowed(x, y, sheetHeight, 2.0), onGround = isShadowed(x, y, 0.0, 2.0),
+                       onCaster = isShadowed(x, y, casterHeight, 2.0);
+            if (onSheet && onGround && onCaster && !*onCaster)
+                all.push_back({std::size_t(row * size + column), alphaAt(x), *onSheet, *onGround});
+        }
+    return all;
+}
+
+/// Relit: each pixel has the bits of the picture that its place asks for.
+::testing::AssertionResult isRelit(const Picture& seen, const Dressed& change) {
+    const Picture of[2][2] = {{picture(false, false, change), picture(false, true, change)},
+                              {picture(true, false, change), picture(true, true, change)}};
+    int wrong = 0, shadowed = 0;
+    for (const Place& place : places()) {
+        const bool loses = place.onSheet && place.hides();
+        shadowed += loses;
+        wrong += seen.pixels[place.at] != of[!loses][!place.onGround].pixels[place.at];
+    }
+    if (wrong == 0 && shadowed > 500) return ::testing::AssertionSuccess();
+    return ::testing::AssertionFailure() << wrong << " pixels are wrong; " << shadowed << " of leaves are shadowed";
+}
+
+/// Grey values, ± 2: a byte is rounded by the ground's factor, the blending and the sheet's factor.
+int wrongInGrey(const Picture& seen, double sheet, double shadowedGround) {
+    int wrong = 0;
+    for (const Place& place : places()) {
+        const double mixed = place.alpha * sheet + (1.0 - place.alpha) * (place.onGround ? shadowedGround : litGround);
+        const double expected = mixed * (place.onSheet && place.hides() ? 0.5 : 1.0);
+        wrong += std::abs(double(seen.pixels[place.at] & 0xff) - expected) > 2.0;
+    }
+    return wrong;
+}
+
+void writeNoDepth(Scene&, osg::Geode& sheet) {
+    sheet.getOrCreateStateSet()->setAttributeAndModes(new osg::Depth(osg::Depth::LESS, 0.0, 1.0, false));
+}
+
+} // namespace
+
+TEST_P(BlendedLeaves, ReceiveWhereTheyHideMoreThanTheyShow) {
+    Leafy leafy = withShadow(relit);
+    EXPECT_TRUE(isRelit(render(leafy.scene.root, fromAbove(half, size)), nothing));
+}
+
+TEST_P(BlendedLeaves, ReceiveThoughTheyWriteNoDepth) {
+    Leafy leafy = withShadow(relit, writeNoDepth);
+    EXPECT_TRUE(isRelit(render(leafy.scene.root, fromAbove(half, size)), writeNoDepth));
+}
+
+TEST_P(BlendedLeaves, TakeTheFactorUnderBlend) {
+    for (const Dressed& change : {Dressed(nothing), Dressed(writeNoDepth)}) {
+        Leafy leafy = withShadow(blended, change);
+        EXPECT_EQ(wrongInGrey(render(leafy.scene.root, fromAbove(half, size)), litGround, 0.5 * litGround), 0);
+    }
+}
+
+/// White, and not to be relit.
+TEST_P(BlendedLeaves, ThatAreUnlitTakeTheFactorOnceAndAreNamed) {
+    const Dressed unlit = [](Scene&, osg::Geode& sheet) {
+        sheet.getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
+    };
+    Leafy leafy = withShadow(relit, unlit);
+    EXPECT_EQ(wrongInGrey(render(leafy.scene.root, fromAbove(half, size)), 255.0, shadowedGround), 0);
+}
+
+/// Two passes, as careful modellers draw leaves: what is opaque with depth, then the rest.
+TEST_P(BlendedLeaves, OfAPassForLowAlphasReceiveNothing) {
+    const Dressed lowOnly = [](Scene&, osg::Geode& sheet) {
+        sheet.getOrCreateStateSet()->setAttributeAndModes(new osg::AlphaFunc(osg::AlphaFunc::LESS, 0.5f));
+    };
+    Leafy leafy = withShadow(relit, lowOnly);
+    const Picture seen = render(leafy.scene.root, fromAbove(half, size)), lit = picture(true, true, lowOnly),
+                  dark = picture(true, false, lowOnly);
+    int wrong = 0;
+    for (const Place& place : places())
+        wrong += seen.pixels[place.at] != (place.onGround ? dark : lit).pixels[place.at];
+    EXPECT_EQ(wrong, 0);
+}
+
+/// The nearer of two hides the other, and both are drawn in their order.
+TEST_P(BlendedLeaves, BehindOthersShowThroughThemAsTheyWere) {
+    const Dressed another = [](Scene& scene, osg::Geode&) {
+        const osg::ref_ptr<osg::Geode> lower = sheet(0.25);
+        lower->setName("lower");
+        scene.root->addChild(lower); // outside the group: it receives all the same
+    };
+    Leafy leafy = withShadow(relit, another);
+    const Picture seen = render(leafy.scene.root, fromAbove(half, size)), lit = picture(true, true, another),
+                  dark = picture(false, false, another);
+    int wrong = 0, shadowed = 0;
+    for (const Place& place : places()) {
+        if (place.alpha < 1.0) continue; // else the lower one's own shadow counts
+        shadowed += place.onSheet;
+        wrong += seen.pixels[place.at] != (place.onSheet ? dark : lit).pixels[place.at];
+    }
+    EXPECT_EQ(wrong, 0);
+    EXPECT_GT(shadowed, 100);
+}
