@@ -50,8 +50,9 @@ struct CasterView;
 /// - A technique's diagnose() reports each of the five cases above.
 /// - RELIGHT, and a named receiver, draw drawables again. Their draw callbacks then run more than once a frame.
 /// - Only the first of several colour attachments receives shadows. The others stay as they are.
-/// - A drawable in render bin 8 or higher receives if it writes depth, has bounds and an alpha of 1; by a program: where it has.
-/// - Translucent drawables receive no shadow. Through one that writes depth, a receiver of bin 8 or higher looks lit.
+/// - A drawable in render bin 8 or higher receives if it writes depth, has bounds and an alpha of 1. One whose alpha differs from
+///   place to place, by textures, vertices or a program, receives where it is a half or more, and with hard edges.
+/// - What has one alpha below 1 receives no shadow. Through one that writes depth, a receiver of bin 8 or higher looks lit.
 /// - Under smooth and soft edges, drawables that blend or write no depth are darkened by setDark().
 /// - VertexTraverser lists which drawables never cast; but billboards, and AutoTransforms that turn, cast as each view draws
 ///   them: while the camera moves they are read again. What is not drawn does not cast either: what clip planes, culling of

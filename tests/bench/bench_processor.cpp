@@ -11,12 +11,15 @@
 #include <StageViewer.h>
 
 #include <osg/Geometry>
+#include <osg/Image>
 #include <osg/MatrixTransform>
 #include <osg/NodeVisitor>
+#include <osg/Texture2D>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <random>
 #include <stdexcept>
 
 #if __has_include(<valgrind/callgrind.h>)
@@ -45,7 +48,7 @@ constexpr int warmUp = 12;    // frames: from the ninth on auto has chosen for w
 constexpr double step = 0.25; // degrees a frame, of the camera and of the light
 
 const std::string alone = "none", peer = "ShadowMap"; // what all are compared with
-const Names allScenes = {"town-400", "town-4000", "bodies-1000", "hills"};
+const Names allScenes = {"town-400", "town-4000", "bodies-1000", "hills", "leaves-100", "solids-100"};
 const Names allMotions = {"still", "camera", "light", "body"};
 const Names usualTechniques = {"Minimal",
                                "LightSpacePerspective VB",
@@ -96,8 +99,61 @@ osg::ref_ptr<osg::Group> houses(int count, bool asBodies) {
     return group;
 }
 
+/// Clear outside a disc.
+osg::ref_ptr<osg::Texture2D> leafTexture() {
+    constexpr int side = 64;
+    const osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(side, side, 1, GL_RGBA, GL_UNSIGNED_BYTE);
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+            const bool inside = std::hypot(x - 31.5, y - 31.5) < 28.0;
+            const unsigned char texel[4] = {90, 160, 60, static_cast<unsigned char>(inside ? 255 : 0)};
+            std::copy_n(texel, 4, image->data(unsigned(x), unsigned(y)));
+        }
+    return new osg::Texture2D(image);
+}
+
+/// Trees of 720 triangles of leaves on level ground, which is the first child: a drawable each, which blends, or not.
+osg::ref_ptr<osg::Group> trees(int count, bool blends) {
+    constexpr int leaves = 360;
+    std::mt19937 random(1);
+    const auto any = [&random] { return double(random()) / 4294967295.0 * 2.0 - 1.0; }; // -1 … 1
+    const int side = static_cast<int>(std::ceil(std::sqrt(count)));
+    const osg::ref_ptr<osg::Group> group = new osg::Group;
+    group->addChild(test::node(test::square(2.5 * side), "ground"));
+    const osg::ref_ptr<osg::StateSet> state = new osg::StateSet;
+    state->setTextureAttributeAndModes(0, leafTexture());
+    if (blends) {
+        state->setMode(GL_BLEND, osg::StateAttribute::ON);
+        state->setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
+    }
+    for (int tree = 0; tree < count; ++tree) {
+        const glm::dvec3 foot(5.0 * (tree % side - side / 2.0), 5.0 * (tree / side - side / 2.0), 0.0);
+        test::Mesh mesh;
+        const osg::ref_ptr<osg::Vec2Array> places = new osg::Vec2Array;
+        for (int leaf = 0; leaf < leaves; ++leaf) {
+            const glm::dvec3 middle = foot + glm::dvec3(1.5 * any(), 1.5 * any(), 3.0 + 1.5 * any());
+            const glm::dvec3 along = 0.15 * glm::normalize(glm::dvec3(any(), any(), any() + 1e-3)),
+                             across = 0.15 * glm::normalize(glm::cross(along, glm::dvec3(any(), any(), 1.0)));
+            const glm::dvec3 a = middle - along - across, b = middle + along - across, c = middle + along + across,
+                             d = middle - along + across;
+            mesh.insert(mesh.end(), {a, b, c, a, c, d});
+            for (const osg::Vec2& at :
+                 {osg::Vec2(0, 0), osg::Vec2(1, 0), osg::Vec2(1, 1), osg::Vec2(0, 0), osg::Vec2(1, 1), osg::Vec2(0, 1)})
+                places->push_back(at);
+        }
+        const osg::ref_ptr<osg::Geode> node = test::node(mesh, "tree");
+        node->getDrawable(0)->asGeometry()->setTexCoordArray(0, places, osg::Array::BIND_PER_VERTEX);
+        node->setStateSet(state);
+        group->addChild(node);
+    }
+    return group;
+}
+
 osg::ref_ptr<osg::Node> filesOf(const std::string& scene) {
     if (scene == "hills") return gnomon::examples::chartScene("hills-45", width, height).content->getChild(0);
+    const bool blends = scene.rfind("leaves", 0) == 0;
+    if (blends || scene.rfind("solids", 0) == 0) return trees(std::stoi(scene.substr(7)), blends);
     return houses(std::stoi(scene.substr(scene.find('-') + 1)), scene.rfind("bodies", 0) == 0);
 }
 

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 #include <osg/ColorMask>
 #include <osg/ContextData>
+#include <osg/Image>
 #include <osg/Stencil>
 
 #include <algorithm>
@@ -104,6 +105,27 @@ std::vector<osg::ref_ptr<gnomon::Mark>> CountingTechnique::prepare(const gnomon:
     return {new NoMarks};
 }
 
+/// A white fence behind the house, drawn late: half of it is clear, half of it lets a fifth of what is behind through.
+osg::ref_ptr<osg::Geode> fence() {
+    const osg::ref_ptr<osg::Geode> geode = node(quad({-3.0, 2.0, 0.0}, {6.0, 0.0, 0.0}, {0.0, 0.0, 2.0}), "fence");
+    osg::Geometry& geometry = *geode->getDrawable(0)->asGeometry();
+    const osg::ref_ptr<osg::Vec2Array> places = new osg::Vec2Array;
+    for (const osg::Vec3& vertex : *static_cast<osg::Vec3Array*>(geometry.getVertexArray()))
+        places->push_back({vertex.x() * 2.0f, vertex.z()});
+    geometry.setTexCoordArray(0, places, osg::Array::BIND_PER_VERTEX);
+    const osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(2, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE);
+    for (const unsigned x : {0u, 1u}) image->setColor({1.0f, 1.0f, 1.0f, x ? 0.8f : 0.0f}, x, 0);
+    const osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(image);
+    for (const auto filter : {osg::Texture::MIN_FILTER, osg::Texture::MAG_FILTER})
+        texture->setFilter(filter, osg::Texture::NEAREST);
+    texture->setWrap(osg::Texture::WRAP_S, osg::Texture::REPEAT);
+    geode->getOrCreateStateSet()->setTextureAttributeAndModes(0, texture);
+    geode->getStateSet()->setMode(GL_BLEND, osg::StateAttribute::ON);
+    geode->getStateSet()->setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
+    return geode;
+}
+
 /// Writes 5 into the stencil buffer where it is drawn, which no eye sees.
 osg::ref_ptr<osg::Geode> stencilMarks() {
     osg::ref_ptr<osg::Geode> marks = node(square(2.0, 0.01));
@@ -170,6 +192,43 @@ TEST_P(AnyWindowBy, AnObjectWithoutStencilAndOneWithoutAlphaShowTheSameBits) {
         EXPECT_EQ(inObject(shadowed(GetParam()).root, without(samples, GL_RGB8)).different(with), 0) << samples;
         expectNoCausesButThoseOfBox(GetParam(), scene, withStencil);
     }
+}
+
+/// Of several samples the frame's colours cannot be saved: such leaves take the factor there, and the technique says so.
+TEST(AnyWindow, LeavesThatBlendShowTheSameShadowsInAll) {
+    const View view = perspective({-6.0, 14.0, 6.0}, {0.0, 0.5, 0.0}, 161, 121); // the fence before the house
+    const auto build = [](const std::string& spec, int lights) {
+        Scene scene = shadowed(spec, lights);
+        scene.content->addChild(fence());
+        return scene;
+    };
+    for (const char* spec : {"map", "map:composite=blend", "traced", "volume"})
+        for (const int lights : {1, 2}) {
+            const Scene scene = build(spec, lights), lit = build("", lights);
+            Camera camera(scene.root, view), litCamera(lit.root, view);
+            const GlComplaints complaints(camera);
+            const Picture with = third(camera);
+            EXPECT_EQ(complaints.all(), std::vector<std::string>());
+            EXPECT_GT(with.different(third(litCamera)), 150);
+            HeadlessContext::Options bare;
+            bare.stencilBits = 0;
+            Camera bareCamera(build(spec, lights).root, view, bare);
+            EXPECT_EQ(third(bareCamera).different(with), 0) << spec << lights;
+            IntoTexture object(build(spec, lights).root, view, without(0)),
+                packed(build(spec, lights).root, view, withDepth(depth24));
+            EXPECT_EQ(third(*object.camera).different(third(*packed.camera)), 0) << spec << lights;
+            EXPECT_LE(third(*object.camera).different(with), 15) << spec << lights << ": edges, as a map draws them";
+            const Scene sampled = build(spec, lights), litSampled = build("", lights);
+            IntoTexture samples(sampled.root, view, without(4)), none(litSampled.root, view, without(4));
+            EXPECT_GT(third(*samples.camera).different(third(*none.camera)), 150) << spec << lights;
+            EXPECT_EQ(samples.complaints->all(), std::vector<std::string>());
+            const std::vector<std::string> said = causesOf(sampled);
+            const auto tells = [](const std::string& cause) {
+                return cause.find("in a multisampled framebuffer object") != std::string::npos;
+            };
+            const bool blends = std::string(spec).find("blend") != std::string::npos;
+            EXPECT_EQ(std::any_of(said.begin(), said.end(), tells), !blends) << spec << lights;
+        }
 }
 
 TEST(AnyWindow, WithStencilMakesNoBuffersAndCopiesNothing) {

@@ -141,7 +141,7 @@ void Compositor::blendInstead(const Jobs& jobs, std::map<float, Jobs>& blended, 
 /// the light away themselves. Possible unless some other leaf shows on a relit receiver.
 bool Compositor::composeDirectly(const Jobs& wanted) {
     const ShadowJob& job = *wanted.front();
-    if (wanted.size() > 1 || !job.receiverNamed) return false;
+    if (wanted.size() > 1 || !job.receiverNamed || _draw.since) return false;
     const bool relit = job.relight;
     const ScreenRect& bounds = job.mark->screenBounds;
     std::vector<ReplayedLeaf> leaves = leavesToReplay(_draw, wanted, bounds);
@@ -280,8 +280,8 @@ void Compositor::blend(const Jobs& jobs, float dark) {
 }
 
 void Compositor::writeBackground(ScreenPass& screen) const {
-    if (_draw.saved)
-        _draw.saved->drawColors(screen);
+    if (_draw.since)
+        _draw.since->frame->drawColors(screen);
     else if (FrameColorCopy* saved = PrepassBin::savedColors(_draw.stage)) {
         screen.beginReplace();
         saved->draw(_draw.state);
@@ -292,7 +292,7 @@ void Compositor::writeBackground(ScreenPass& screen) const {
 
 /// Interlaced stereo clears colours once for both eyes.
 bool Compositor::isBackgroundKnown() const {
-    if (_draw.saved) return _draw.saved->hasColors();
+    if (_draw.since) return _draw.since->frame->hasColors();
     return (_draw.stage.getClearMask() & GL_COLOR_BUFFER_BIT) || _draw.pattern.value ||
            PrepassBin::savedColors(_draw.stage);
 }
@@ -302,7 +302,7 @@ void Compositor::resetMarked(unsigned where, const ScreenRect& bounds) const {
     _draw.pass(bounds, [&](ScreenPass& screen) {
         screen.stencilAny(where);
         if (readsBack(_draw.leaves)) writeBackground(screen);
-        _draw.saved ? void(_draw.saved->drawDepths(screen)) : screen.writeFarDepth();
+        _draw.since ? void(_draw.since->frame->drawDepths(screen)) : screen.writeFarDepth();
     });
 }
 

@@ -31,7 +31,7 @@ CompositorStage::CompositorStage(osg::RenderInfo& info, osgUtil::RenderStage& of
       materials(kept),
       stencilIsZero(drawn.stencilIsZero),
       pattern(StencilPattern::read(state)),
-      saved(drawn.saved) {
+      since(drawn.since) {
     GLint stencil = 0, alpha = 0;
     glGetIntegerv(GL_STENCIL_BITS, &stencil);
     glGetIntegerv(GL_ALPHA_BITS, &alpha);
@@ -42,6 +42,10 @@ CompositorStage::CompositorStage(osg::RenderInfo& info, osgUtil::RenderStage& of
     if (bits.size() > 2) vast = vastLeaves(leaves, *stage.getViewport());
     if (!vast.empty()) {
         vastBit = bits.front();
+        bits.erase(bits.begin());
+    }
+    if (since && !bits.empty()) {
+        hidingBit = bits.front();
         bits.erase(bits.begin());
     }
     counters = countersAmong(bits, drawn.bitsOfLights);

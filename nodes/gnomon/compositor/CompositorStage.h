@@ -19,13 +19,20 @@ namespace gnomon {
 
 class MaterialHistory;
 
+/// What a stage draws since its frame was saved, where some of it is clear in parts.
+struct DrawnSince {
+    osg::ref_ptr<SavedFrame> frame;
+    int number = 0;                  ///< of the bin that saved it.
+    std::vector<DrawnLeaf> hiding{}; ///< leaves that hide what is behind, where they do, see LateReceivers.
+};
+
 /// What a CompositorStage is made of.
 struct DrawnStage {
     std::vector<DrawnLeaf> leaves; ///< that it has drawn before, in order.
     CompositorOptions options;
-    bool stencilIsZero;          ///< it is known to be.
-    std::size_t bitsOfLights;    ///< how many stencil bits marks take, 2 to 8; others are counters.
-    SavedFrame* saved = nullptr; ///< what stood before the first of the leaves; null: what the stage clears to.
+    bool stencilIsZero;                ///< it is known to be.
+    std::size_t bitsOfLights;          ///< how many stencil bits marks take, 2 to 8; others are counters.
+    const DrawnSince* since = nullptr; ///< what stood before the first of the leaves; null: what the stage clears to.
 };
 
 /// One stage while the compositor draws in it: what was drawn before, and what its framebuffer offers.
@@ -61,11 +68,12 @@ public:
     const bool stencilIsZero;
     const StencilPattern pattern; ///< its bit is not among `bits`.
     bool hasStencil = false, hasAlpha = false;
-    std::vector<unsigned> bits; ///< of the stencil buffer, those that are free, the highest first.
-    unsigned counters = 0;      ///< some of them, see ScreenPass::counters(); 0 if there are none.
-    SavedFrame* const saved;    ///< see DrawnStage.
-    std::vector<VastLeaf> vast; ///< see VastLeaf; TrueDepths puts them right.
-    unsigned vastBit = 0;       ///< for it; not among `bits`.
+    std::vector<unsigned> bits;    ///< of the stencil buffer, those that are free, the highest first.
+    unsigned counters = 0;         ///< some of them, see ScreenPass::counters(); 0 if there are none.
+    std::vector<VastLeaf> vast;    ///< see VastLeaf; TrueDepths puts them right.
+    unsigned vastBit = 0;          ///< for it; not among `bits`.
+    const DrawnSince* const since; ///< see DrawnStage.
+    unsigned hidingBit = 0;        ///< set where its leaves hide what was saved; 0: there are none. Not among `bits`.
 
 private:
     mutable std::optional<Channels> _channels; ///< once asked for.

@@ -50,7 +50,7 @@ CompositorTarget::CompositorTarget(osg::State& state, const osg::Viewport& viewp
     : _colors(state) {
     const bool interlaced = StencilPattern::read(state).bit != 0;
     if (!interlaced && !suffices(needs))
-        _own.emplace(state, viewport, inWholeBlocks(pixelsWithin(needs.bounds, viewport)));
+        _own.emplace(state, viewport, inWholeBlocks(pixelsWithin(needs.bounds, viewport)), needs.depth);
 }
 
 } // namespace gnomon

@@ -14,6 +14,7 @@ struct TargetNeeds {
     unsigned reserved = 0;           ///< stencil bits that are the application's.
     std::size_t stencilBits = 0;     ///< beside those.
     bool alpha = false;
+    bool depth = true;       ///< that of the framebuffer.
     bool ownStencil = false; ///< nobody else's marks may be touched.
 };
 

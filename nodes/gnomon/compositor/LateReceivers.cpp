@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
+#include <optional>
 #include <unordered_map>
 
 namespace gnomon {
@@ -148,9 +149,8 @@ bool showsColors(const osgUtil::StateGraph* graph) {
                                                       material->getColorMode() == osg::Material::AMBIENT_AND_DIFFUSE));
 }
 
-/// Of what a leaf that blends draws. Programs may do anything, textures but multiply.
-Alphas alphasOf(const osgUtil::RenderLeaf& leaf, KnownAlphas& known) {
-    const osgUtil::StateGraph* graph = leaf._parent;
+/// Of what textures leave. Programs may do anything, textures but multiply.
+Alphas alphasOfTextures(const osgUtil::StateGraph* graph, KnownAlphas& known) {
     if (resolvedAttribute(graph, A::PROGRAM)) return any;
     Alphas result;
     for (unsigned unit = 0, end = textureUnits(graph); unit < end; ++unit) {
@@ -161,49 +161,71 @@ Alphas alphasOf(const osgUtil::RenderLeaf& leaf, KnownAlphas& known) {
         if (environment && !(plain && plain->getMode() == osg::TexEnv::MODULATE)) return any;
         result = result * known.of(*texture, texture->getImage(0));
     }
-    const osg::Array* colors = colorsOf(*leaf._drawable);
-    const auto* material = resolved<osg::Material>(graph, A::MATERIAL);
-    if (colors && showsColors(graph)) // one is read at once
-        result = result * (colors->getNumElements() <= 1 ? alphasIn(*colors) : known.of(*colors, colors));
-    else if (isOn(graph, GL_LIGHTING) && material) {
-        const float alpha =
-            std::max(material->getDiffuse(osg::Material::FRONT).a(), material->getDiffuse(osg::Material::BACK).a());
-        result = result * Alphas{alpha, alpha};
-    }
     return result;
 }
 
-/// What has no bounds draws something else than surfaces: a user interface, for one, which must not be drawn twice.
-bool isSurface(const osgUtil::RenderLeaf& leaf) { return leaf._drawable->getBoundingBox().valid(); }
+/// Of the diffuse colour that vertices do not replace.
+Alphas alphasOfMaterial(const osgUtil::StateGraph* graph) {
+    const auto* material = isOn(graph, GL_LIGHTING) ? resolved<osg::Material>(graph, A::MATERIAL) : nullptr;
+    if (!material) return {};
+    const float alpha =
+        std::max(material->getDiffuse(osg::Material::FRONT).a(), material->getDiffuse(osg::Material::BACK).a());
+    return {alpha, alpha};
+}
 
 enum class Kind { None, Combined, Clear, Cut, Solid };
 
-Kind kindOf(const osgUtil::RenderLeaf& leaf, KnownAlphas& known) {
-    const osgUtil::StateGraph* graph = leaf._parent;
-    const bool writes = writesDepth(graph);
-    if (!isSurface(leaf)) return Kind::None;
-    if (isOn(graph, GL_COLOR_LOGIC_OP))
-        return !writes ? Kind::None : operationHides(graph) ? Kind::Solid : Kind::Combined;
-    if (!isOn(graph, GL_BLEND)) return writes ? Kind::Solid : Kind::None;
-    const bool hides = alphaHides(graph);
-    if (!hides && !writes) return Kind::None;
-    const Alphas alphas = hides ? alphasOf(leaf, known) : none;
-    if (writes && alphas.areSolid()) return Kind::Solid;
-    const bool mayBeCut =
-        leaf._drawable->asGeometry() && (writes || (isShaded(graph) && isOn(graph, GL_DEPTH_TEST, true)));
-    if (mayBeCut && alphas.areCut()) return Kind::Cut;
-    return !writes ? Kind::None : alphas.areCut() ? Kind::Solid : Kind::Clear;
-}
+/// What leaves of one state are, as far as that tells.
+class StateKind {
+public:
+    StateKind(const osgUtil::StateGraph* graph, KnownAlphas& known)
+        : _known(known),
+          _combines(isOn(graph, GL_COLOR_LOGIC_OP)),
+          _hides(_combines ? operationHides(graph) : !isOn(graph, GL_BLEND) || alphaHides(graph)),
+          _blends(!_combines && isOn(graph, GL_BLEND)),
+          _writes(writesDepth(graph)),
+          _showsDepthless(isShaded(graph) && isOn(graph, GL_DEPTH_TEST, true)) {
+        if (!_blends || !_hides) return;
+        _textures = alphasOfTextures(graph, known);
+        _material = alphasOfMaterial(graph);
+        _showsColors = gnomon::showsColors(graph);
+    }
+
+    Kind of(const osg::Drawable& drawable) const {
+        if (!drawable.getBoundingBox().valid()) return Kind::None; // a user interface, for one, must not be drawn twice
+        if (!_blends) return !_writes ? Kind::None : _hides ? Kind::Solid : Kind::Combined;
+        if (!_hides) return _writes ? Kind::Clear : Kind::None;
+        const osg::Array* colors = _showsColors ? colorsOf(drawable) : nullptr;
+        const Alphas alphas = _textures * (colors ? alphasOf(*colors) : _material);
+        if (_writes && alphas.areSolid()) return Kind::Solid;
+        if (alphas.areCut() && drawable.asGeometry() && (_writes || _showsDepthless)) return Kind::Cut;
+        return !_writes ? Kind::None : alphas.areCut() ? Kind::Solid : Kind::Clear;
+    }
+
+private:
+    /// One is read at once.
+    Alphas alphasOf(const osg::Array& colors) const {
+        return colors.getNumElements() <= 1 ? alphasIn(colors) : _known.of(colors, &colors);
+    }
+
+    KnownAlphas& _known;
+    const bool _combines, _hides, _blends, _writes, _showsDepthless;
+    Alphas _textures, _material;
+    bool _showsColors = false;
+};
 
 } // namespace
 
 LateReceivers lateReceivers(osgUtil::RenderStage& stage, int number) {
     LateReceivers late;
     KnownAlphas& known = keptBy<KnownAlphas>(stage);
+    std::optional<StateKind> kinds; // leaves of one state mostly follow each other
+    const osgUtil::StateGraph* graph = nullptr;
     const auto& bins = stage.getRenderBinList();
     for (auto bin = bins.lower_bound(number); bin != bins.end(); ++bin)
         for (const DrawnLeaf& entry : leavesIn(*bin->second)) {
-            const Kind kind = kindOf(*entry.leaf, known);
+            if (!kinds || entry.leaf->_parent != graph) kinds.emplace(graph = entry.leaf->_parent, known);
+            const Kind kind = kinds->of(*entry.leaf->_drawable);
             if (kind == Kind::Combined) late.combined.push_back(entry);
             if (kind == Kind::Clear) late.clear.push_back(entry);
             if (kind != Kind::Cut && kind != Kind::Solid) continue;

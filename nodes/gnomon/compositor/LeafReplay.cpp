@@ -516,6 +516,22 @@ void writeWhereSeen(const CompositorStage& draw, const std::vector<ReplayedLeaf>
     draw.clear(bits.scratch, wholeScreen); // leaves are not cut to the bounds
 }
 
+std::string drawHiding(const CompositorStage& draw, const ScreenRect& bounds, const LeafSet* moved) {
+    std::string cause;
+    draw.pass(bounds, [&](ScreenPass& screen) { cause = draw.since->frame->drawDepths(screen); });
+    if (!cause.empty()) return cause;
+    LeafReplay::Overlay overlay;
+    overlay.reference = overlay.write = draw.hidingBit;
+    overlay.color = LeafReplay::Color::None;
+    overlay.hidingOnly = overlay.writesDepth = true;
+    overlay.bounds = bounds;
+    LeafReplay replay(draw, overlay);
+    TouchTest touches(bounds, moved);
+    for (const DrawnLeaf& entry : draw.since->hiding)
+        if (touches(*entry.leaf)) replay.draw(entry);
+    return "";
+}
+
 std::vector<ReplayedLeaf> notOfLens(const ShadowJob& job, const std::vector<DrawnLeaf>& leaves) {
     TouchTest touches(job.mark->screenBounds, job.moved.get());
     std::vector<ReplayedLeaf> result;
@@ -537,7 +553,7 @@ std::vector<ReplayedLeaf> leavesToReplay(const CompositorStage& draw, const std:
     const std::size_t last = skips ? lastReceiver(leaves, jobs) : leaves.size();
     std::vector<ReplayedLeaf> result;
     const DrawnLeaf* selfDrawn = nullptr; // draws itself and is left out: it may have set the colour of what has none
-    bool stands = draw.saved;             // something that writes depth
+    bool stands = draw.since;             // something that writes depth
     Catchers catchers(leaves);
     for (std::size_t i = 0; i < leaves.size(); ++i) {
         const osgUtil::RenderLeaf& leaf = *leaves[i].leaf;

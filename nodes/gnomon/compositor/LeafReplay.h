@@ -158,6 +158,13 @@ struct StencilWrite {
 void writeWhereSeen(const CompositorStage& draw, const std::vector<ReplayedLeaf>& leaves, const StencilWrite& bits,
                     const ScreenRect& bounds);
 
+/// Writes depths of what hides what stood when the frame was saved, over those that were saved, and the stencil bit for it.
+/// @param moved  leaves that a program moves, wherever; null: none.
+/// @return why that cannot be, as a cause for diagnose(); empty if all is well.
+///
+/// Cost  all of these leaves within the bounds, once more.
+std::string drawHiding(const CompositorStage& draw, const ScreenRect& bounds, const LeafSet* moved);
+
 /// Which leaves must be drawn again so that marked pixels get exactly what a full redraw would give them.
 ///
 /// Left out: leaves whose screen bounds miss `bounds`. If every job names its receiver, marks lie only where a receiver

@@ -220,7 +220,7 @@ void StencilMarks::add(const ShadowJob& job, unsigned bit, bool fresh, const Mar
     if (job.receiverNamed)
         gate(job, bit);
     else
-        transfer(job, bit);
+        transfer(job, _scratch, bit);
     _draw.clear(_scratch, job.mark->screenBounds);
 }
 
@@ -235,6 +235,8 @@ void StencilMarks::addUngated(const ShadowJob& job, unsigned bit, const MarkFadi
 
 /// Hands marks on where the receiver is what one sees: its own leaves, drawn again, pass only at the depth that stands.
 void StencilMarks::gate(const ShadowJob& job, unsigned bit) const {
+    if (_draw.since && job.receivers->size() == _draw.since->hiding.size())
+        return transfer(job, _scratch | _draw.hidingBit, bit);
     LeafReplay::Overlay overlay;
     overlay.stencilFunction = GL_EQUAL;
     overlay.reference = _scratch | bit;
@@ -251,9 +253,10 @@ void StencilMarks::gate(const ShadowJob& job, unsigned bit) const {
         if (job.isNamed(entry.leaf) && touches(*entry.leaf)) replay.draw(entry);
 }
 
-void StencilMarks::transfer(const ShadowJob& job, unsigned bit) const {
+/// Where all bits of `from` are set.
+void StencilMarks::transfer(const ShadowJob& job, unsigned from, unsigned bit) const {
     _draw.pass(job.mark->screenBounds, [&](ScreenPass& screen) {
-        screen.stencilEqual(_scratch | bit, _scratch, bit);
+        screen.stencilEqual(from | bit, from, bit);
         screen.drawQuad();
     });
 }

@@ -107,7 +107,7 @@ private:
     unsigned takeLast();
     bool assignBits(MarkedLight& light, std::vector<unsigned>& unused) const;
     void gate(const ShadowJob& job, unsigned bit) const;
-    void transfer(const ShadowJob& job, unsigned bit) const;
+    void transfer(const ShadowJob& job, unsigned from, unsigned bit) const;
 
     const CompositorStage& _draw;
     const bool _fades;

@@ -224,7 +224,7 @@ bool isTopDown(const osg::State& state) {
     return topDown != 0;
 }
 
-WorkFramebuffer::WorkFramebuffer(osg::State& state, const osg::Viewport& viewport, const PixelRect& pixels)
+WorkFramebuffer::WorkFramebuffer(osg::State& state, const osg::Viewport& viewport, const PixelRect& pixels, bool depths)
     : _state(state), _extensions(*state.get<osg::GLExtensions>()) {
     const WorkFormat format = WorkFormat::ofBound();
     if (!canCopy(_extensions, format)) return;
@@ -240,7 +240,7 @@ WorkFramebuffer::WorkFramebuffer(osg::State& state, const osg::Viewport& viewpor
         return;
     }
     clear();
-    if (format.keepsDepth && place.fits && _isTopDown == place.isWindow) copyDepths();
+    if (depths && format.keepsDepth && place.fits && _isTopDown == place.isWindow) copyDepths();
     _own->bind();
 }
 

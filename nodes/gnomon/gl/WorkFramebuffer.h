@@ -85,8 +85,8 @@ bool isTopDown(const osg::State& state);
 /// Threads one a context.
 class WorkFramebuffer {
 public:
-    /// @param pixels  that are copied; others are undefined.
-    WorkFramebuffer(osg::State& state, const osg::Viewport& viewport, const PixelRect& pixels);
+    /// @param pixels  that are copied; others are undefined. @param depths  are copied, too.
+    WorkFramebuffer(osg::State& state, const osg::Viewport& viewport, const PixelRect& pixels, bool depths);
     ~WorkFramebuffer();
     WorkFramebuffer(const WorkFramebuffer&) = delete;
     WorkFramebuffer& operator=(const WorkFramebuffer&) = delete;

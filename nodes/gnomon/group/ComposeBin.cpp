@@ -187,10 +187,10 @@ std::string ComposeBin::compose(osg::RenderInfo& renderInfo, std::vector<DrawnLe
     const bool stencilIsZero = target.isOwn() || isStencilZero(leaves);
     const CompositorStage draw(
         renderInfo, *getStage(),
-        {std::move(leaves), options, stencilIsZero, bitsOfLights(_jobs), _since ? _since->frame.get() : nullptr},
-        materials);
+        {std::move(leaves), options, stencilIsZero, bitsOfLights(_jobs), _since ? &*_since : nullptr}, materials);
     std::string cause = needs.stencilBits > 0 ? whyNotComposed(draw) : "";
-    if (cause.empty() && _since) cause = target.isOwn() ? drawHidingDepths(draw, needs.bounds) : noFrameForCut;
+    if (cause.empty() && _since)
+        cause = target.isOwn() ? drawHiding(draw, needs.bounds, _jobs.front().moved.get()) : noFrameForCut;
     if (cause.empty()) {
         if (!_since && target.lacksDepth()) {
             drawDepths(draw, needs.bounds, _jobs.empty() ? nullptr : _jobs.front().moved.get());
@@ -213,25 +213,10 @@ TargetNeeds ComposeBin::needs(const std::vector<DrawnLeaf>& leaves) const {
         return needs;
     needs = needsOf(_jobs);
     needs.reserved = _options.reservedStencilBits;
+    needs.depth = !_since;
     needs.ownStencil = _since || (_sharesStencil && needs.reserved == 0);
     if (!_effects.empty()) needs.bounds = wholeScreen;
     return needs;
-}
-
-/// Depths of what hides what is behind it, where it does, over those that were saved. @return as compose().
-std::string ComposeBin::drawHidingDepths(const CompositorStage& draw, const ScreenRect& bounds) const {
-    std::string cause;
-    draw.pass(bounds, [&](ScreenPass& screen) { cause = _since->frame->drawDepths(screen); });
-    if (!cause.empty()) return cause;
-    LeafReplay::Overlay overlay;
-    overlay.color = LeafReplay::Color::None;
-    overlay.hidingOnly = overlay.writesDepth = true;
-    overlay.bounds = bounds;
-    LeafReplay replay(draw, overlay);
-    TouchTest touches(bounds, _jobs.front().moved.get());
-    for (const DrawnLeaf& entry : _since->hiding)
-        if (touches(*entry.leaf)) replay.draw(entry);
-    return "";
 }
 
 /// As the stage draws. @param leaves  drawn since.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/CompositorOptions.h>
+#include <gnomon/compositor/CompositorStage.h>
 #include <gnomon/compositor/CompositorTarget.h>
 #include <gnomon/compositor/DrawnLeaves.h>
 #include <gnomon/compositor/MaterialHistory.h>
-#include <gnomon/compositor/SavedFrame.h>
 #include <gnomon/compositor/ShadowJob.h>
 #include <gnomon/compositor/ViewEffect.h>
 
@@ -62,13 +62,6 @@ protected:
     osg::ref_ptr<SavedFrame> _saves;   ///< of what stands once all is composed; null: nobody asks for it.
 
 private:
-    /// What is drawn since another bin saved the frame, where some of it is clear in parts.
-    struct DrawnSince {
-        osg::ref_ptr<SavedFrame> frame;
-        int number = 0;                  ///< of that bin.
-        std::vector<DrawnLeaf> hiding{}; ///< leaves that hide what is behind, where they do.
-    };
-    std::string drawHidingDepths(const CompositorStage& draw, const ScreenRect& bounds) const;
     bool holdsFrame() const { return _holdsFrame && !isIdle(); }
     void sortAsAsked();
     bool isStencilZero(const std::vector<DrawnLeaf>& leaves) const;

@@ -31,9 +31,11 @@ namespace gnomon {
 ///         Under soft edges opaque layers at the very same depth are mixed one after the other. A leaf that sets no
 ///         colour of its own and takes that of the leaf before it may take another. Reversed depth is refused.
 ///         Of several colour attachments the first alone is shadowed; the others stay as the leaves have drawn them.
-///         What is drawn in bin 8 or later receives where it writes depth and its alpha is 1. What lets anything shine
-///         through receives nothing there; nor does what is seen through it, if it writes depth and both are late. A leaf
-///         that a logic operation draws receives there if it hides what is behind; diagnose() names the others.
+///         What is drawn in bin 8 or later receives where it hides what is behind: it writes depth and its alpha is 1, or
+///         of an alpha that differs from place to place, a half or more. Then edges are hard there. What one alpha lets shine
+///         through receives nothing there; nor does what is seen through it, if it writes depth and both are late and none is
+///         clear in parts. A leaf that a logic operation draws receives there if it hides what is behind; diagnose() names the
+///         others.
 /// Threads sort in the cull thread, draw in the draw thread, as every RenderBin.
 class ShadowBin : public ComposeBin {
 public:
