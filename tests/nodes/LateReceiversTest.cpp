@@ -59,6 +59,23 @@ TEST(LateReceivers, FollowTheColorsOfTheirVertices) {
     EXPECT_EQ(found.clear.size(), 2u);
 }
 
+TEST(LateReceivers, AreCutWhereOneAlphaOfSeveralHidesWhatIsBehind) {
+    const Leaves leaves(1);
+    auto& colors = static_cast<osg::Vec4ubArray&>(*leaves.kept[0]->getColorArray());
+    const auto found = [&](unsigned char first, unsigned char others) {
+        for (osg::Vec4ub& color : colors) color.a() = others;
+        colors.front().a() = first;
+        colors.dirty();
+        return gnomon::lateReceivers(*leaves.stage, late);
+    };
+    EXPECT_FALSE(found(255, 255).areCut);
+    EXPECT_TRUE(found(0, 255).areCut);
+    EXPECT_TRUE(found(0, 128).areCut) << "more than a half";
+    EXPECT_EQ(found(0, 128).leaves.size(), 1u);
+    EXPECT_EQ(found(0, 127).clear.size(), 1u) << "less";
+    EXPECT_EQ(found(200, 200).clear.size(), 1u) << "glass";
+}
+
 // With what grows as the square of their number it is hundreds of times as long.
 TEST(LateReceivers, OfManyDrawablesAreFoundInAFirstFrameNearlyAsFastAsInOthers) {
     const Leaves leaves(32000);

@@ -197,6 +197,20 @@ TEST_P(BlendedLeaves, ThatAreUnlitTakeTheFactorOnceAndAreNamed) {
     EXPECT_EQ(wrongInGrey(render(leafy.scene.root, fromAbove(half, size)), 255.0, shadowedGround), 0);
 }
 
+/// Loaders hint at the transparent bin; programs forget to.
+TEST_P(BlendedLeaves, InAnOpaqueBinAreNamed) {
+    Leafy leafy = withShadow(relit, [](Scene&, osg::Geode& sheet) {
+        sheet.getOrCreateStateSet()->setRenderingHint(osg::StateSet::OPAQUE_BIN);
+    });
+    const auto* technique = dynamic_cast<gnomon::ShadowTechnique*>(leafy.scene.group->getChild(1));
+    ASSERT_NE(technique, nullptr);
+    render(leafy.scene.root, fromAbove(half, size));
+    const std::vector<std::string> causes = technique->diagnose();
+    EXPECT_TRUE(std::any_of(causes.begin(), causes.end(), [](const std::string& cause) {
+        return cause.find("'sheet' blends by an alpha that differs from place to place") != std::string::npos;
+    }));
+}
+
 /// Two passes, as careful modellers draw leaves: what is opaque with depth, then the rest.
 TEST_P(BlendedLeaves, OfAPassForLowAlphasReceiveNothing) {
     const Dressed lowOnly = [](Scene&, osg::Geode& sheet) {

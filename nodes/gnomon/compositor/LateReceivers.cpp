@@ -214,18 +214,38 @@ private:
     bool _showsColors = false;
 };
 
+/// What leaves of a stage are. Those of one state mostly follow each other.
+class LeafKinds {
+public:
+    explicit LeafKinds(osgUtil::RenderStage& stage) : _known(keptBy<KnownAlphas>(stage)) {}
+
+    Kind of(const osgUtil::RenderLeaf& leaf) {
+        if (!_kind || leaf._parent != _graph) _kind.emplace(_graph = leaf._parent, _known);
+        return _kind->of(*leaf._drawable);
+    }
+
+private:
+    KnownAlphas& _known;
+    std::optional<StateKind> _kind;
+    const osgUtil::StateGraph* _graph = nullptr;
+};
+
 } // namespace
+
+const osgUtil::RenderLeaf* firstCut(const std::vector<DrawnLeaf>& leaves, osgUtil::RenderStage& stage) {
+    LeafKinds kinds(stage);
+    const auto isCut = [&kinds](const DrawnLeaf& entry) { return kinds.of(*entry.leaf) == Kind::Cut; };
+    const auto found = std::find_if(leaves.begin(), leaves.end(), isCut);
+    return found == leaves.end() ? nullptr : found->leaf;
+}
 
 LateReceivers lateReceivers(osgUtil::RenderStage& stage, int number) {
     LateReceivers late;
-    KnownAlphas& known = keptBy<KnownAlphas>(stage);
-    std::optional<StateKind> kinds; // leaves of one state mostly follow each other
-    const osgUtil::StateGraph* graph = nullptr;
+    LeafKinds kinds(stage);
     const auto& bins = stage.getRenderBinList();
     for (auto bin = bins.lower_bound(number); bin != bins.end(); ++bin)
         for (const DrawnLeaf& entry : leavesIn(*bin->second)) {
-            if (!kinds || entry.leaf->_parent != graph) kinds.emplace(graph = entry.leaf->_parent, known);
-            const Kind kind = kinds->of(*entry.leaf->_drawable);
+            const Kind kind = kinds.of(*entry.leaf);
             if (kind == Kind::Combined) late.combined.push_back(entry);
             if (kind == Kind::Clear) late.clear.push_back(entry);
             if (kind != Kind::Cut && kind != Kind::Solid) continue;

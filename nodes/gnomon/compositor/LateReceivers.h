@@ -22,4 +22,7 @@ struct LateReceivers {
 /// Those in bin `number` of the stage and later ones. Call it in cull.
 LateReceivers lateReceivers(osgUtil::RenderStage& stage, int number);
 
+/// The first of some leaves of the stage that blends and hides what is behind in some parts only; null if there is none.
+const osgUtil::RenderLeaf* firstCut(const std::vector<DrawnLeaf>& leaves, osgUtil::RenderStage& stage);
+
 } // namespace gnomon

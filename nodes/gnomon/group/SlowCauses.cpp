@@ -110,6 +110,10 @@ std::vector<std::string> slowCauses(const TechniqueInStage& asked, const ShownBy
     std::vector<std::string> causes =
         enclosingCauses({shown.casters, shown.receiving.early, entry.eyeFromGroup}, shown.lights);
     if (!shown.marks) return causes;
+    if (const osgUtil::RenderLeaf* cut = firstCut(asked.drawn.early, asked.stage))
+        causes.push_back("'" + nameOf(*cut) +
+                         "' blends by an alpha that differs from place to place, in a bin below 8, so what is seen "
+                         "through it has its shadow. Set the rendering hint osg::StateSet::TRANSPARENT_BIN.");
     if (entry.technique->leavesSomeLit())
         for (const ShadowLight& light : shown.lights)
             if (const std::string cause = unshadowedCause(asked, light, shown.casters); !cause.empty())
