@@ -2,7 +2,11 @@
 // Overlaps, edges of receivers, counts; and what the method of ARL-TN-156 stumbles over.
 #include "SceneParts.h"
 
+#include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
+#include <osg/Geometry>
+#include <osg/Image>
+#include <osg/Texture2D>
 
 #include <cmath>
 
@@ -103,6 +107,86 @@ SceneParts dugIn(double metres) {
     return parts;
 }
 
+/// A square sheet whose texture is clear but for some of its texels, drawn late and blended as leaves are.
+struct LeafySheet {
+    glm::dvec3 corner, along, up;
+    int texels; ///< on a side.
+
+    /// A pattern without repeats.
+    bool isLeaf(int x, int y) const { return (x * 7 + y * 13 + x * y * 3) % 5 < 3; }
+    osg::ref_ptr<osg::Node> drawn() const {
+        const osg::ref_ptr<osg::Image> image = new osg::Image;
+        image->allocateImage(texels, texels, 1, GL_RGBA, GL_UNSIGNED_BYTE);
+        for (int y = 0; y < texels; ++y)
+            for (int x = 0; x < texels; ++x)
+                image->setColor({1.0f, 1.0f, 1.0f, isLeaf(x, y) ? 1.0f : 0.0f}, unsigned(x), unsigned(y));
+        const osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(image);
+        for (const auto filter : {osg::Texture::MIN_FILTER, osg::Texture::MAG_FILTER})
+            texture->setFilter(filter, osg::Texture::NEAREST);
+        const osg::ref_ptr<osg::Geode> geode = node(quad(corner, along, up));
+        osg::Geometry& geometry = *geode->getDrawable(0)->asGeometry();
+        const osg::ref_ptr<osg::Vec2Array> places = new osg::Vec2Array;
+        for (const osg::Vec3& vertex : *static_cast<osg::Vec3Array*>(geometry.getVertexArray())) {
+            const glm::dvec3 from = glm::dvec3(vertex.x(), vertex.y(), vertex.z()) - corner;
+            places->push_back(
+                osg::Vec2d(glm::dot(from, along) / glm::dot(along, along), glm::dot(from, up) / glm::dot(up, up)));
+        }
+        geometry.setTexCoordArray(0, places, osg::Array::BIND_PER_VERTEX);
+        geode->getOrCreateStateSet()->setTextureAttributeAndModes(0, texture);
+        geode->getStateSet()->setMode(GL_BLEND, osg::StateAttribute::ON);
+        geode->getStateSet()->setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
+        return geode;
+    }
+    /// A square for each texel that is not clear.
+    Mesh seen() const {
+        Mesh mesh;
+        const glm::dvec3 right = along / double(texels), upwards = up / double(texels);
+        for (int y = 0; y < texels; ++y)
+            for (int x = 0; x < texels; ++x) {
+                if (!isLeaf(x, y)) continue;
+                const Mesh texel = quad(corner + double(x) * right + double(y) * upwards, right, upwards);
+                mesh.insert(mesh.end(), texel.begin(), texel.end());
+            }
+        return mesh;
+    }
+};
+
+/// Hedges behind one another, as so many texels a side show them.
+SceneParts hedges(double texels) {
+    SceneParts parts = onGround();
+    SceneParts seen = onGround();
+    for (const LeafySheet& sheet : {LeafySheet{{-3.0, 1.5, 0.0}, {3.0, 0.0, 0.0}, {0.0, 0.0, 3.0}, int(texels)},
+                                    LeafySheet{{-1.5, 0.0, 0.0}, {2.4, 1.8, 0.0}, {0.0, 0.0, 3.0}, int(texels)},
+                                    LeafySheet{{0.5, -1.0, 0.0}, {0.0, 3.0, 0.0}, {0.0, 0.0, 3.0}, int(texels)}}) {
+        parts.add(sheet.drawn());
+        seen.add(sheet.seen());
+    }
+    for (SceneParts* each : {&parts, &seen}) each->add(house({3.0, 1.0}, {1.5, 1.0, 3.0}, 20.0));
+    parts.truth = seen.content;
+    return parts;
+}
+
+/// A tower in a pond, of which the bottom is the ground. Water takes no shadow; where its alpha is less than a half, a pixel
+/// shows more of what the ground has.
+SceneParts pond(double alpha) {
+    SceneParts parts = onGround();
+    parts.add(boxAt({0.0, 0.0, 0.0}, {1.0, 1.0, 3.0}));
+    parts.truth = new osg::Group(*parts.content);
+    const osg::ref_ptr<osg::Geode> water = node(square(5.0, 0.5));
+    const osg::ref_ptr<osg::Image> image = new osg::Image; // looks leave textures as they are
+    image->allocateImage(1, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE);
+    image->setColor({1.0f, 1.0f, 1.0f, float(alpha)}, 0, 0);
+    osg::Geometry& surface = *water->getDrawable(0)->asGeometry();
+    surface.setTexCoordArray(0, new osg::Vec2Array(surface.getVertexArray()->getNumElements()),
+                             osg::Array::BIND_PER_VERTEX);
+    osg::StateSet& set = *water->getOrCreateStateSet();
+    set.setTextureAttributeAndModes(0, new osg::Texture2D(image));
+    set.setMode(GL_BLEND, osg::StateAttribute::ON);
+    set.setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
+    parts.add(water);
+    return parts;
+}
+
 } // namespace
 
 std::vector<StabilityScene> blendingScenes() {
@@ -115,6 +199,11 @@ std::vector<StabilityScene> blendingScenes() {
                 "jug from the edge", "m", {6.0, 3.0, 2.0, 1.0, 0.5, 0.0}, onTable);
     section.add("B5", "Number of casters", "Nothing depends on how many casters there are.", "casters", "",
                 {0.0, 1.0, 9.0, 100.0, 900.0}, many);
+    section.add("B6", "Hedges that blend",
+                "Leaves cut out by a texture cast and receive, and what is seen between them does.", "texels a side",
+                "", {2.0, 4.0, 8.0, 16.0, 32.0}, hedges);
+    section.add("B7", "Tower in a pond", "The ground keeps its shadow below water.", "alpha of the water", "",
+                {0.1, 0.2, 0.3, 0.4}, pond);
     section.add("A1", "Turned box", "A box has no preferred azimuth.", "turn", "°",
                 {0.0, 10.0, 20.0, 30.0, 45.0, 60.0, 75.0, 89.0}, turnedBox);
     section.add("A2", "Prism of many sides", "Vertices that lie close to each other all count.", "sides", "",
