@@ -33,6 +33,15 @@ PixelRect pixelsLookedAt(const std::vector<ShadowJob>& jobs, const osg::Viewport
     return bounds ? wholeQuads(pixelsWithin(*bounds, viewport), viewport) : PixelRect();
 }
 
+constexpr const char* backgroundNotKnown =
+    "an opaque object in this view blends over colours that the camera does not clear, in a multisampled framebuffer "
+    "object, so the shadow blends instead of relighting. Draw that object in a bin above 8, or set BLEND "
+    "(composite=blend).";
+constexpr const char* leavesNotSaved = "what is clear in parts is drawn above bin 8 in a multisampled framebuffer "
+                                       "object, so the shadow on all that is drawn "
+                                       "there blends instead of relighting. Draw it in a bin below 8 by an "
+                                       "osg::AlphaFunc, or set BLEND (composite=blend).";
+
 } // namespace
 
 /// Unless it has a named receiver or something of another view lies over it.
@@ -101,10 +110,7 @@ void Compositor::relightAny(const Jobs& jobs, std::map<float, Jobs>& blended) {
                      "an opaque object in this view has a stencil test of its own, so the shadow blends "
                      "instead of relighting. Draw that object in a bin above 8, or set BLEND (composite=blend).");
     else if (!fading && !isBackgroundKnown() && readsBack(_draw.leaves))
-        blendInstead(jobs, blended,
-                     "an opaque object in this view blends over colours that the camera does not clear, in a "
-                     "multisampled framebuffer object, so the shadow blends instead of relighting. Draw that object in "
-                     "a bin above 8, or set BLEND (composite=blend).");
+        blendInstead(jobs, blended, _draw.since ? leavesNotSaved : backgroundNotKnown);
     else if (fading)
         FadingCompositor(_draw).relight(jobs);
     else
