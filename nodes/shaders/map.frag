@@ -41,14 +41,17 @@ vec2 notLess(vec2 side) { return side * max(1.0, fewest * inversesqrt(max(dot(si
 // Mean over a pixel, whose sides are so many texels long, or over a few texels where that is more: SAMPLES comparisons of 2 x 2,
 // 4 or 16, one in each of as many columns and rows. The square of the rows from one column to the next is -1 modulo SAMPLES + 1, so
 // that a quarter turn leaves them where they are.
-float litOverPixel(int i, vec2 p, float depth, vec2 slope, mat2 sides) {
+//
+// Each is made on the plane of either face that is nearer to the light there, see Compared: faces that meet in an edge towards the eye
+// are both behind that, whichever of them the pixel is on. On one plane the other face would be in its own shadow.
+float litOverPixel(int i, vec2 p, float depth, vec2 slope, vec2 bent, mat2 sides) {
     mat2 grid = mat2(notLess(sides[0]), notLess(sides[1]));
     const float up = SAMPLES == 4.0 ? 2.0 : 4.0, middle = (SAMPLES + 1.0) / 2.0;
     float sum = 0.0;
     for (float column = 1.0; column <= SAMPLES; column += 1.0) {
         vec2 way = (vec2(column, mod(up * column, SAMPLES + 1.0)) - middle) / SAMPLES;
         vec2 at = withinTile(p + grid * way, i);
-        sum += texture(maps, vec3(at * texel, depth + dot(slope, at - p)));
+        sum += texture(maps, vec3(at * texel, depth + min(dot(slope, at - p), dot(bent, at - p))));
     }
     return sum / SAMPLES;
 }
@@ -74,6 +77,7 @@ float depthOff(Lie lie) { return depthError.x + depthError.y * (abs(lie.change.x
 // How a map compares a pixel on a surface whose plane is given: see visibility().
 struct Compared {
     vec2 place, slope; // in texels of the texture; change of depth a texel
+    vec2 bent;         // `slope` of the steeper of two faces, where they meet beside the pixel in an edge towards the eye
     float depth;       // that is compared
     vec3 inner;        // where the body of what is turned away is, if it has one: nearer to the light than this
 };
@@ -86,7 +90,8 @@ Compared compared(int i, vec4 held, vec4 error, Axes axes, Lie lie, float drawn)
     float along = max(max(abs(deeper), least), 1e-37); // all 0 where no plane is known
     vec2 own = abs(change.xy) / (along * size), others = abs(onOther.xy) / (abs(onOther.z) * size);
     float steepness = own.x + own.y, allowed = allowance(own), otherwise = others.x + others.y;
-    if (otherwise <= error.z) {
+    bool isBent = otherwise <= error.z;
+    if (isBent) {
         steepness = max(steepness, otherwise);
         allowed = max(allowed, allowance(others));
     }
@@ -95,13 +100,14 @@ Compared compared(int i, vec4 held, vec4 error, Axes axes, Lie lie, float drawn)
     float within = allowed + error.y * steepness + error.x + off, depth = min(inMap.z, 1.0);
     bool isEdgeOn = abs(deeper) < least;
     vec2 slope = isEdgeOn ? vec2(0.0) : -change.xy / (deeper * size);
+    vec2 bent = isBent && !isEdgeOn ? -onOther.xy / (onOther.z * size) : slope;
     vec2 outwards = isEdgeOn && lie.facing ? change.xy / max(length(change.xy), 1e-37) : vec2(0.0);
     vec2 beside = outwards * (abs(outwards.x) + abs(outwards.y));
     // At the depth of the pixel itself: of a body with offsets, the surface there is farther from the light, see mark.vert.
     const float inwards = 2.0;
     vec2 at = place(i).xy + inMap.xy * place(i).z;
     vec3 inner = vec3(at - inwards * change.xy / max(length(change.xy), 1e-37), depth - error.x - off);
-    return Compared(at + beside, slope, depth - within, inner);
+    return Compared(at + beside, slope, bent, depth - within, inner);
 }
 
 vec4 errorAt(int i, float depth) { return mix(nearestError(i), farthestError(i), clamp(depth, 0.0, 1.0)); }
@@ -139,7 +145,7 @@ float visibility(float e, ivec2 here, vec2 at) {
     sides = sidesIn(i, inMap, lie.change);
 #endif
 #if defined(SMOOTH) && defined(BICUBIC)
-    float share = litOverPixel(i, c.place, c.depth, c.slope, lie.isAtRim ? mat2(0.0) : sides);
+    float share = litOverPixel(i, c.place, c.depth, c.slope, c.bent, lie.isAtRim ? mat2(0.0) : sides);
 #else
     float share = lit(c.place, c.depth, c.slope, found < MAPS);
 #endif

@@ -270,8 +270,9 @@ private:
         map.map.filter = quality.filter;
         map.map.edges = quality.edges;
         map.map.cascades = cascades;
-        // Dark pixels where smooth bodies turn from the light; and light along the foot of what stands on a ground that hides it.
-        map.flawed = (_smooth && quality.edges == Map::SMOOTH) || forecast.touchesFlat;
+        // Dark pixels along the facets of smooth bodies; and light along the foot of what stands on a ground that hides it.
+        const bool darkens = quality.edges == Map::SMOOTH && quality.filter == Map::BILINEAR;
+        map.flawed = (_smooth && darkens) || forecast.touchesFlat;
         const double wish = MapSettings(map.map).widestTexel;
         const int texels = texelsFor(forecast.texels / wish, std::min(size, forecast.most), 0);
         map.error = edges.empty() ? mapError(quality.edge, forecast.texels / texels)
