@@ -278,6 +278,37 @@ TEST(FitMap, TurnsWithWhatItCoversKeepsAReserveWithinWhatCastsAndLeavesAMargin) 
     EXPECT_NEAR(fitMap(frame, needed, needed, {0.125, 0.1, 1.0}).area(), 100.0, 1e-9); // 8 is 80 % of the side
 }
 
+/// How far a place is from the middle of its texel, in texels of 64 on a side.
+glm::dvec2 inTexel(const MapFit& fit, const glm::dvec3& place) {
+    const glm::dvec2 texels = 64.0 * glm::dvec2(seenBy(fit.mapFromScene, place));
+    return texels - glm::floor(texels) - 0.5;
+}
+
+TEST(SlidMap, HoldsTheOutlineInItsMiddleAndLeavesEveryTexelWhereItWas) {
+    const glm::dvec3 utm(432100.0, 6400000.0, 812.0);
+    for (const glm::dvec3& at : {glm::dvec3(0.0), utm})
+        for (const LightFrame& frame : {sunFrame(glm::normalize(glm::dvec3(1.0, 0.5, 1.0))),
+                                        lampFrame(at + glm::dvec3(0.0, 0.0, 30.0), down, 2.0)}) {
+            const auto outlineAt = [&](const glm::dvec3& aside) {
+                return outlineOf(frame, at + aside, at + aside + glm::dvec3(8.0, 8.0, 1.0));
+            };
+            const MapOutline before = outlineAt(glm::dvec3(0.0)), now = outlineAt({4.7, 1.3, -0.4});
+            const MapFit fit = fitMap(frame, before, outlineOf(frame, at - 99.0, at + 99.0), {0.125, 0.05, 1.0}),
+                         slid = slidMap(fit, frame, now, 1.0, 64);
+            EXPECT_FALSE(fit.covers(now, 0.0));
+            EXPECT_TRUE(slid.covers(now, 0.14 - 0.51 / 64.0)); // 0.05 of its sides, and 0.125 of the outline's
+            EXPECT_EQ(slid.size, fit.size);
+            const MapFit fresh = fitMap(frame, now, now, {0.125, 0.05, 1.0});
+            EXPECT_EQ(slid.nearest, fresh.nearest);
+            EXPECT_EQ(slid.farthest, fresh.farthest);
+            const double rounding = 1e-12 * (1.0 + glm::length(at)); // in texels, which are 0.1 or more
+            for (const glm::dvec3& place : {glm::dvec3(0.31, 0.17, 0.0), glm::dvec3(7.3, 7.9, 1.0)}) {
+                const glm::dvec2 moved = inTexel(slid, at + place) - inTexel(fit, at + place);
+                EXPECT_LE(glm::length(moved), rounding);
+            }
+        }
+}
+
 TEST(MapFit, CoversWhatItWasMadeForAndNothingThatSticksOut) {
     const LightFrame frame = sunFrame(glm::normalize(glm::dvec3(1.0, 0.5, 1.0)));
     const MapOutline needed = outlineOf(frame, {0.0, 0.0, 0.0}, {8.0, 8.0, 1.0});

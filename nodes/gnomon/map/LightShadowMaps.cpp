@@ -15,11 +15,15 @@
 namespace gnomon {
 namespace {
 
-constexpr double reserve = 1.0 / 16.0; // of a map's sides
-constexpr double mostWaste = 2.0;      // area of a map to the smallest that would do: edges may be a half coarser
+constexpr double reserve = 1.0 / 16.0;         // of a map's sides
+constexpr double leastReserve = reserve / 4.0; // of a map that is only moved
+constexpr double mostWaste = 2.0;    // area of a map to the smallest that would do: edges may be a half coarser
 constexpr double fewestSoft = 256.0; // texels of soft edges: with fewer, what 128 of them reach would be most of a map
 constexpr double fitsOfAMap = 50.0;  // see MapForecast::fits
 constexpr double keptClear = 3.0; // texels at a map's sides: what a comparison reaches over, and one against rounding
+
+/// Beside the smallest one that would do.
+bool isNarrow(const MapFit& fit, const MapFit& smallest) { return fit.area() <= mostWaste * smallest.area(); }
 
 bool isSameRequest(const MapRequest& one, const MapRequest& other) {
     return one.light == other.light && one.cone == other.cone && one.casters == other.casters;
@@ -162,18 +166,27 @@ bool LightShadowMaps::anyDue() const {
 /// True if the face's map is not to be drawn again.
 bool LightShadowMaps::holds(const Face& face) const {
     if (!face.fit || !face.fit->covers(face.held, (keptClear - 1.0) / _texels)) return false;
-    return face.fit->area() <= mostWaste * fitOf(face).area();
+    return isNarrow(*face.fit, freshFit(face));
 }
 
 /// What moves will be beside what casters can darken now.
-MapFit LightShadowMaps::fitOf(const Face& face) const {
+MapFit LightShadowMaps::freshFit(const Face& face) const {
     MapOutline most = face.reach;
     if (!isSettled() && !_faces.request().casters->moving->casters->pieces.empty()) {
         most.merge(face.held);
         most.grow(reserve * face.held.length());
     }
-    const double thick = glm::length(_faces.reachOf(face)) / 64.0;
-    return fitMap(face.side->frame, face.held, most, {reserve, keptClear / _texels, thick});
+    return fitMap(face.side->frame, face.held, most, {reserve, keptClear / _texels, thickOf(face)});
+}
+
+/// The map that there was, moved by whole texels, if that does as well: edges stay where they are then. It must have some
+/// reserve left, or a view that slowly widens would have it moved, and so drawn again, in one frame after the other.
+MapFit LightShadowMaps::fitOf(const Face& face) const {
+    const MapFit fresh = freshFit(face);
+    if (!face.fit) return fresh;
+    const MapFit slid = slidMap(*face.fit, face.side->frame, face.held, thickOf(face), _texels);
+    const bool doesAsWell = slid.covers(face.held, keptClear / _texels + leastReserve) && isNarrow(slid, fresh);
+    return doesAsWell ? slid : fresh;
 }
 
 /// Where nothing changes any more, as in a light's first picture: all triangles, for where only those turned to the light are
@@ -278,7 +291,7 @@ MapForecast LightShadowMaps::forecast() const {
         const double looks = face.side->frame.isParallel ? 1.0 : 2.0; // a lamp's are divided by distance
         result.fits += looks * (fitsOfAMap + double(face.side->blockers.size() * _faces.seen().receivers.size()));
         if (face.needed.empty()) continue;
-        const MapFit fit = fitOf(face);
+        const MapFit fit = freshFit(face);
         result.each.push_back({fit.mapFromScene, _faces.placesOf(face)});
         result.pixel = std::min(result.pixel, face.texel);
         result.texels = std::max(result.texels, fit.longer() / face.texel);

@@ -25,7 +25,7 @@ struct MapForecast {
     double texels = 0.0; ///< on a side of the largest map, with one texel a pixel where pixels are smallest.
     double pixel = std::numeric_limits<double>::infinity(); ///< smallest side of a pixel, see TexelDensity.
     std::optional<ScreenRect> bounds;                       ///< where on the screen the shadow can be.
-    bool touchesFlat = false; ///< see anyTouchesBehind(); not where nothing flat casts.
+    bool touchesFlat = false;                               ///< see anyTouchesBehind(); not where nothing flat casts.
     /// Receivers' boxes that are cut to what can be dark, in all maps. What a map takes besides counts as 50.
     double fits = 0.0;
     /// A fit, and what is looked up in it.
@@ -88,7 +88,11 @@ private:
     double texelsWanted() const;
     bool anyDue() const;
     bool holds(const Face& face) const;
+    /// By what is needed now alone.
+    MapFit freshFit(const Face& face) const;
     MapFit fitOf(const Face& face) const;
+    /// See MapRoom::thick.
+    double thickOf(const Face& face) const { return glm::length(_faces.reachOf(face)) / 64.0; }
     MapPicture::Layer drawnOf(const MapLayer& layer, bool again, MapMeshes& meshes) const;
     glm::ivec2 addTiles(MapPicture& picture);
     MapPicture::Tile tileOf(const Face& face, const glm::ivec2& corner);

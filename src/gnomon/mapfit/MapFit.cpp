@@ -88,14 +88,24 @@ void widen(Rectangle& rectangle) {
     }
 }
 
-/// Rows that take a homogeneous place of the light's to 0 … 1.
-glm::dmat4 unitFromLight(const Rectangle& rectangle, double nearest, double farthest) {
+/// Rows that take a homogeneous place of the light's to 0 … 1 along the sides; depths stay.
+glm::dmat4 unitFromLight(const Rectangle& rectangle) {
     const glm::dvec2 size = rectangle.high - rectangle.low, across = rectangle.across();
-    const double range = farthest - nearest;
     return glm::transpose(glm::dmat4(glm::dvec4(rectangle.along / size.x, 0.0, -rectangle.low.x / size.x),
                                      glm::dvec4(across / size.y, 0.0, -rectangle.low.y / size.y),
-                                     glm::dvec4(0.0, 0.0, 1.0 / range, -nearest / range),
-                                     glm::dvec4(0.0, 0.0, 0.0, 1.0)));
+                                     glm::dvec4(0.0, 0.0, 1.0, 0.0), glm::dvec4(0.0, 0.0, 0.0, 1.0)));
+}
+
+/// Gives a map the outline's depths and some more. @param thick  see MapRoom.
+void setDepths(MapFit& fit, const LightFrame& frame, const MapOutline& outline, double thick) {
+    const double least = thick * (frame.isParallel ? 1.0 : outline.farthest * outline.farthest); // d(-1/w) is dw/w²
+    const double more = 0.125 * std::max(outline.farthest - outline.nearest, 4.0 * least);
+    fit.nearest = outline.nearest - more;
+    fit.farthest = frame.isParallel ? outline.farthest + more : std::min(0.0, outline.farthest + more);
+    const double range = fit.farthest - fit.nearest;
+    fit.mapFromLight[2].z = 1.0 / range;
+    fit.mapFromLight[3].z = -fit.nearest / range;
+    fit.mapFromScene = fit.mapFromLight * frame.lightFromScene;
 }
 
 /// A box by its middle and half of each of its sides, as a frame has them, homogeneous.
@@ -362,14 +372,19 @@ MapFit fitMap(const LightFrame& frame, const MapOutline& outline, const MapOutli
     rectangle.low -= border;
     rectangle.high += border;
     MapFit fit;
-    const double least =
-        room.thick * (frame.isParallel ? 1.0 : outline.farthest * outline.farthest); // d(-1/w) is dw/w²
-    const double more = 0.125 * std::max(outline.farthest - outline.nearest, 4.0 * least);
-    fit.nearest = outline.nearest - more;
-    fit.farthest = frame.isParallel ? outline.farthest + more : std::min(0.0, outline.farthest + more);
     fit.size = rectangle.high - rectangle.low;
-    fit.mapFromLight = unitFromLight(rectangle, fit.nearest, fit.farthest);
-    fit.mapFromScene = fit.mapFromLight * frame.lightFromScene;
+    fit.mapFromLight = unitFromLight(rectangle);
+    setDepths(fit, frame, outline, room.thick);
+    return fit;
+}
+
+MapFit slidMap(MapFit fit, const LightFrame& frame, const MapOutline& outline, double thick, int texels) {
+    Rectangle inMap;
+    for (const glm::dvec2& corner : outline.corners)
+        inMap.add(glm::dvec2(fit.mapFromLight * glm::dvec4(corner, 0.0, 1.0)));
+    const glm::dvec2 offCentre = (inMap.low + inMap.high - 1.0) / 2.0;
+    fit.mapFromLight[3] -= glm::dvec4(glm::round(offCentre * double(texels)) / double(texels), 0.0, 0.0);
+    setDepths(fit, frame, outline, thick);
     return fit;
 }
 

@@ -124,6 +124,11 @@ struct MapRoom {
 ///         CACM 18(7), 1975: a side of it lies along an edge of the hull.
 MapFit fitMap(const LightFrame& frame, const MapOutline& outline, const MapOutline& most, const MapRoom& room);
 
+/// The same map moved by whole texels, so that an outline that is not empty lies in its middle, and with the outline's depths.
+/// Texels stay where they are in the scene, and shadows' edges with them. Whether it covers the outline is not asked.
+/// @param frame, thick  as fitMap() had them. @param texels  on a side.
+MapFit slidMap(MapFit fit, const LightFrame& frame, const MapOutline& outline, double thick, int texels);
+
 /// How far from a place of an outline, in x/w and y/w, what softens an edge there can be.
 /// @param nearest, farthest  depths between which shadows are cast, see MapOutline.
 /// @param lightRadius  half the size of the light: of a sun the tangent of half the angle that it is seen under, of a lamp
