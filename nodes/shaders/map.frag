@@ -42,8 +42,8 @@ vec2 notLess(vec2 side) { return side * max(1.0, fewest * inversesqrt(max(dot(si
 // 4 or 16, one in each of as many columns and rows. The square of the rows from one column to the next is -1 modulo SAMPLES + 1, so
 // that a quarter turn leaves them where they are.
 //
-// Each is made on the plane of either face that is nearer to the light there, see Compared: faces that meet in an edge towards the eye
-// are both behind that, whichever of them the pixel is on. On one plane the other face would be in its own shadow.
+// Each is made on the plane of either face that is nearer to the light there, see Compared: faces that meet beside the pixel are both
+// behind that, by less than a pixel, whichever of them it is on. On one plane the other face would be in its own shadow.
 float litOverPixel(int i, vec2 p, float depth, vec2 slope, vec2 bent, mat2 sides) {
     mat2 grid = mat2(notLess(sides[0]), notLess(sides[1]));
     const float up = SAMPLES == 4.0 ? 2.0 : 4.0, middle = (SAMPLES + 1.0) / 2.0;
@@ -77,7 +77,7 @@ float depthOff(Lie lie) { return depthError.x + depthError.y * (abs(lie.change.x
 // How a map compares a pixel on a surface whose plane is given: see visibility().
 struct Compared {
     vec2 place, slope; // in texels of the texture; change of depth a texel
-    vec2 bent;         // `slope` of the steeper of two faces, where they meet beside the pixel in an edge towards the eye
+    vec2 bent;         // `slope` of the steeper of two faces that meet beside the pixel, see Lie::steeper
     float depth;       // that is compared
     vec3 inner;        // where the body of what is turned away is, if it has one: nearer to the light than this
 };

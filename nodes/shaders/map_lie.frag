@@ -48,7 +48,7 @@ vec3 nearerAlong(Axes axes, vec2 change) {
 // How the surface lies that is seen in a pixel.
 struct Lie {
     vec2 change;  // of e a pixel; of two that differ the smaller, for the other may lead to another surface
-    vec2 steeper; // the same on the steeper of two faces, where they meet in an edge towards the eye; elsewhere as `change`
+    vec2 steeper; // the larger of the two, where this is no rim or ends in an edge towards the eye; elsewhere as `change`
     bool turned;  // away from the light
     bool facing;  // it, or along it: one of the two, unless that is not known
     bool isAtRim; // of a surface: beside the pixel there is another, or this one bends
@@ -112,8 +112,8 @@ Lie lieOf(float e, ivec2 here, Axes axes, float steepest) {
             bvec2 isAfter = lessThan(abs(after), abs(before));
             vec2 least = mix(before, after, isAfter), larger = mix(after, before, isAfter);
             lie.change = least;
-            lie.steeper = mix(least, larger, lessThan(after, before));
             lie.isAtRim = any(greaterThan(abs(after - before), 0.75 * abs(larger) + 4.0 * depthError.x));
+            lie.steeper = lie.isAtRim ? mix(least, larger, lessThan(after, before)) : larger;
             vec3 nearer = nearerAlong(axes, least);
             vec2 other = axes.z.xy * (larger - least);
             lie.turned = nearer.z - max(other.x, 0.0) - max(other.y, 0.0) > doubt;

@@ -122,6 +122,25 @@ TEST(MapSmooth, NoPixelThatAllRaysAgreeOnIsOnTheOtherSide) {
         }
 }
 
+// Nothing casts here, but either face is before the plane of the other.
+TEST(MapSmooth, CornersOfARoomAreFreeOfAcne) {
+    const test::Mesh ground = test::quad({-4.0, -4.0, 0.0}, {8.0, 0.0, 0.0}, {0.0, 8.0, 0.0}),
+                     wall = test::quad({-4.0, 4.0, 0.0}, {8.0, 0.0, 0.0}, {0.0, 0.0, 3.0});
+    int pixels = 0;
+    for (const osg::Vec3d& eye : {osg::Vec3d(-3.0, -3.0, 1.7), {0.0, -3.5, 1.7}, {-3.5, 2.0, 1.2}, {3.0, 0.0, 2.5}}) {
+        const Shares shares(test::tilted({"corner",
+                                          {ground, wall},
+                                          {0.3, -1.0, 1.2, 0.0},
+                                          test::perspective(eye, {0.5, 4.0, 0.4}, 320, 240, 55.0, 0.1, 30.0)}));
+        for (const auto filter : {ShadowMapTechnique::BICUBIC, ShadowMapTechnique::FINE}) {
+            const Picture picture = shares.with(mapWith(ShadowMapTechnique::SMOOTH, 4096, filter));
+            for (int y = 0; y < picture.height; ++y)
+                for (int x = 0; x < picture.width; ++x) pixels += shares.tells(x, y) && shares.at(picture, x, y) < 0.9;
+        }
+    }
+    EXPECT_LE(pixels, 1);
+}
+
 TEST(MapSmooth, FlatGroundsAreFreeOfAcne) {
     for (const double elevation : {90.0, 45.0, 20.0, 10.0, 5.0}) {
         const Shares shares(test::tilted(test::flatGround(8.0, 3.0, elevation, 1.0, 100.0, 20))); // not left out
