@@ -184,7 +184,7 @@ void Compositor::relight(const Jobs& wanted) {
     const ScreenRect bounds = screenBoundsOf(jobs);
     _marks.clearLeftovers(lightBits);
     _marks.mark(lights);
-    if (jobs.front()->hidingOnly) darkenUnlit(lights);
+    if (jobs.front()->hidingOnly && !darkenUnlit(lights)) return _draw.clear(lightBits, bounds);
     resetMarked(lightBits, bounds);
     std::vector<ReplayedLeaf> catchers;
     for (unsigned lost = 1; lost < (1u << lights.size()); ++lost) replay(subsetOf(lights, lost), lightBits, catchers);
@@ -194,7 +194,8 @@ void Compositor::relight(const Jobs& wanted) {
 
 /// What blends and cannot lose a light takes the factor where it hides what is behind, once, and its marks go: drawn again in
 /// its own colour, it would be mixed with what is behind.
-void Compositor::darkenUnlit(const MarkedLights& lights) {
+/// @return whether marks are left: something else loses a light.
+bool Compositor::darkenUnlit(const MarkedLights& lights) {
     const Jobs jobs = jobsOf(lights);
     LeafReplay::Overlay overlay;
     overlay.stencilFunction = GL_NOTEQUAL;
@@ -205,11 +206,21 @@ void Compositor::darkenUnlit(const MarkedLights& lights) {
     overlay.factor = jobs.front()->dark;
     overlay.lightUniforms = lightUniformsOf(jobs);
     LeafReplay replay(_draw, overlay);
+    const osgUtil::StateGraph* graph = nullptr; // leaves of one state mostly follow each other
+    unsigned lost = 0;
+    bool darkens = false, left = false;
     for (const ReplayedLeaf& leaf : leavesToReplay(_draw, jobs, overlay.bounds)) {
-        if (!leaf.lost || isOpaque(leaf.entry.leaf->_parent) || replay.canBeRelit(leaf.entry, leaf.lost)) continue;
-        replay.draw(leaf.entry);
-        reportNotRelit(*leaf.entry.leaf, jobs);
+        if (!leaf.lost) continue;
+        if (leaf.entry.leaf->_parent != graph || leaf.lost != lost) {
+            graph = leaf.entry.leaf->_parent;
+            lost = leaf.lost;
+            darkens = !leaf.isCatcher && !isOpaque(graph) && !replay.canBeRelit(leaf.entry, lost);
+            if (darkens) reportNotRelit(*leaf.entry.leaf, jobs);
+        }
+        left = left || !darkens;
+        if (darkens) replay.draw(leaf.entry);
     }
+    return left;
 }
 
 /// What shows where a catcher is seen loses the light by the factor.
