@@ -31,6 +31,17 @@ osg::ref_ptr<osg::Node> glass() {
     return pane;
 }
 
+/// Where the box's shadow reaches it; half of it clear, by the alphas of its vertices.
+osg::ref_ptr<osg::Node> leaf() {
+    const osg::ref_ptr<osg::Geode> leaf = node(quad({-3.0, -0.3, 0.1}, {2.0, 0.0, 0.0}, {0.0, 0.0, 2.0}), "leaf");
+    leaf->setStateSet(glass()->getStateSet());
+    const osg::ref_ptr<osg::Geometry> geometry = leaf->getDrawable(0)->asGeometry();
+    const osg::ref_ptr<osg::Vec4Array> colors = new osg::Vec4Array(geometry->getVertexArray()->getNumElements());
+    for (std::size_t i = 0; i < colors->size(); ++i) (*colors)[i].set(0.3f, 1.0f, 0.1f, i % 2 ? 1.0f : 0.0f);
+    geometry->setColorArray(colors, osg::Array::BIND_PER_VERTEX);
+    return leaf;
+}
+
 /// A ground, a box, what mirrors or glows, and a pane of glass.
 Scene build(const std::string& given) {
     Scene scene = groundScene({box({-1.0, -1.0, 0.5}, {1.0, 1.0, 2.0})}, 4.0, {1.0, 0.3, 1.2, 0.0});
@@ -57,8 +68,7 @@ struct Drawn {
     bool keepsPattern = true; ///< nothing but the eyes' pattern is in the stencil buffer.
 };
 
-Drawn draw(const std::string& given, Mode mode) {
-    Scene scene = build(given);
+Drawn draw(const Scene& scene, Mode mode) {
     Camera camera(scene.root, from);
     osg::ref_ptr<osg::DisplaySettings> settings = new osg::DisplaySettings;
     settings->setStereo(true);
@@ -80,6 +90,8 @@ Drawn draw(const std::string& given, Mode mode) {
     drawn.keepsPattern = drawn.keepsPattern && 2 * ones == drawn.third.pixels.size();
     return drawn;
 }
+
+Drawn draw(const std::string& given, Mode mode) { return draw(build(given), mode); }
 
 /// Whether a picture has different colours about a pixel.
 bool atEdge(const Picture& picture, int x, int y) {
@@ -141,4 +153,19 @@ TEST_P(InterlacedStereo, ShowsEachEyeItsOwnPicture) {
     EXPECT_LE(wrong(actual.third, left.third, right.third, mode, swapped), smooth ? 200 : 0);
     EXPECT_EQ(actual.complaints, std::vector<std::string>());
     EXPECT_TRUE(actual.keepsPattern);
+}
+
+/// The frame's own stencil buffer has the pattern, so there is no other framebuffer to work in.
+TEST(InterlacedStereo, LeavesThatBlendReceiveNothingAndAreSaidTo) {
+    const Scene bare = build(""), scene = build("map");
+    for (const Scene* each : {&bare, &scene}) each->root->addChild(leaf());
+    const Drawn without = draw(bare, Mode::HORIZONTAL_INTERLACE), with = draw(scene, Mode::HORIZONTAL_INTERLACE);
+    EXPECT_GT(with.third.different(without.third), 500) << "the ground keeps its shadow";
+    EXPECT_TRUE(with.keepsPattern);
+    const auto* technique = dynamic_cast<const gnomon::ShadowTechnique*>(scene.group->getChild(1));
+    ASSERT_NE(technique, nullptr);
+    const std::vector<std::string> causes = technique->diagnose();
+    EXPECT_TRUE(std::any_of(causes.begin(), causes.end(), [](const std::string& cause) {
+        return cause.find("receives no shadow if any of it is clear in parts") != std::string::npos;
+    }));
 }

@@ -160,7 +160,8 @@ std::string ComposeBin::compose(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf
     forgetArrays(state);
     learnQuadCut(); // for the next cull
     for (const osg::ref_ptr<DrawWatch>& watch : _watches) watch->begin(renderInfo);
-    const std::string cause = compose(renderInfo, std::move(leaves), materials);
+    const bool isForOthers = _jobs.empty() && _effects.empty() && _waiting.empty(); // it saves the frame alone
+    const std::string cause = isForOthers ? "" : compose(renderInfo, std::move(leaves), materials);
     if (_saves) {
         const CleanState clean(state, getStage()->getViewport());
         _saves->save(state, *getStage()->getViewport());
@@ -188,22 +189,31 @@ std::string ComposeBin::compose(osg::RenderInfo& renderInfo, std::vector<DrawnLe
     const CompositorStage draw(
         renderInfo, *getStage(),
         {std::move(leaves), options, stencilIsZero, bitsOfLights(_jobs), _since ? &*_since : nullptr}, materials);
-    std::string cause = needs.stencilBits > 0 ? whyNotComposed(draw) : "";
-    if (cause.empty() && _since)
-        cause = target.isOwn() ? drawHiding(draw, needs.bounds, _jobs.front().moved.get()) : noFrameForCut;
-    if (cause.empty()) {
-        if (!_since && target.lacksDepth()) {
-            drawDepths(draw, needs.bounds, _jobs.empty() ? nullptr : _jobs.front().moved.get());
-            if (std::any_of(draw.leaves.begin(), draw.leaves.end(), mayStencilHide))
-                for (const ShadowJob& job : _jobs)
-                    job.report(
-                        "OpenGL hands over no depths of this framebuffer, so an object that its own stencil test hides "
-                        "takes shadows away from what is behind it. Draw that object in a bin above 8.");
-        }
-        Compositor(draw).compose(_jobs, _effects);
-    }
+    const std::string cause = needs.stencilBits > 0 ? whyNotComposed(draw) : "";
+    if (cause.empty() && findDepths(draw, target, needs.bounds)) Compositor(draw).compose(_jobs, _effects);
     draw.pattern.restore(state);
     return cause;
+}
+
+/// Where the target has not those of the frame, or shall have others.
+/// @return false if that cannot be: nothing here has a shadow then, unlike what the stage's other bin composes.
+bool ComposeBin::findDepths(const CompositorStage& draw, const CompositorTarget& target,
+                            const ScreenRect& bounds) const {
+    const auto reportAll = [this](const std::string& cause) {
+        for (const ShadowJob& job : _jobs) job.report(cause);
+    };
+    const LeafSet* moved = _jobs.empty() ? nullptr : _jobs.front().moved.get();
+    if (_since) {
+        const std::string cause = target.isOwn() ? drawHiding(draw, bounds, moved) : noFrameForCut;
+        reportAll(cause);
+        return cause.empty();
+    }
+    if (!target.lacksDepth()) return true;
+    drawDepths(draw, bounds, moved);
+    if (std::any_of(draw.leaves.begin(), draw.leaves.end(), mayStencilHide))
+        reportAll("OpenGL hands over no depths of this framebuffer, so an object that its own stencil test hides takes "
+                  "shadows away from what is behind it. Draw that object in a bin above 8.");
+    return true;
 }
 
 TargetNeeds ComposeBin::needs(const std::vector<DrawnLeaf>& leaves) const {

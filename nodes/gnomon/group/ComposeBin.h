@@ -67,6 +67,7 @@ private:
     bool isStencilZero(const std::vector<DrawnLeaf>& leaves) const;
     std::string compose(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous);
     std::string compose(osg::RenderInfo& renderInfo, std::vector<DrawnLeaf> leaves, MaterialHistory& materials);
+    bool findDepths(const CompositorStage& draw, const CompositorTarget& target, const ScreenRect& bounds) const;
     TargetNeeds needs(const std::vector<DrawnLeaf>& leaves) const;
     void tell(const std::string& cause);
     std::optional<double> drawStartIfWatched() const;
