@@ -221,6 +221,9 @@ TEST(OwnDrawing, FollowsUniforms) {
     patches.grown->set(1.0f);
     EXPECT_LT(trial.frame().count(shadowedGround), before.count(shadowedGround) - 50);
     EXPECT_EQ(technique->passes(), 2u);
+    patches.grown->set(1.0f);
+    trial.frame();
+    EXPECT_EQ(technique->passes(), 2u) << "the same value";
 }
 
 TEST(OwnDrawing, OtherTechniquesSayThatItCastsNothing) {

@@ -36,6 +36,14 @@ void mixValues(Fingerprint& into, const Value&... value) {
     (mixValue(value, into), ...);
 }
 
+/// By value, for many applications set the same in each frame.
+void mixUniform(const osg::Uniform& uniform, Fingerprint& into) {
+    const osg::Array* arrays[] = {uniform.getFloatArray(), uniform.getDoubleArray(), uniform.getIntArray(),
+                                  uniform.getUIntArray(),  uniform.getInt64Array(),  uniform.getUInt64Array()};
+    for (const osg::Array* array : arrays)
+        if (array) into.mixBytes(array->getDataPointer(), array->getTotalDataSize());
+}
+
 void mixMaterial(const osg::Material& material, Fingerprint& into) {
     mixValues(into, unsigned(material.getColorMode()));
     for (const auto face : {osg::Material::FRONT, osg::Material::BACK})
@@ -175,7 +183,7 @@ void mixStates(const DrawnStates& states, Fingerprint& into) {
             for (const auto& [mode, value] : unit) into.mix(std::uint64_t{mode} << 32 | value);
         for (const auto& [name, uniform] : set->getUniformList()) {
             into.mix(static_cast<const void*>(uniform.first.get()));
-            into.mix(std::uint64_t{uniform.first->getModifiedCount()});
+            mixUniform(*uniform.first, into);
         }
         for (const auto& [name, define] : set->getDefineList()) mixValues(into, name, define.first);
     }
