@@ -1,7 +1,7 @@
 # What Gnomon is built with. Programs that use the installed shared library need OpenSceneGraph and GLM alone; those
 # with a static one need MathLibraries.cmake besides.
 find_package(glm REQUIRED)
-find_package(OpenSceneGraph 3.6.5 REQUIRED COMPONENTS osg osgUtil osgDB osgFX osgGA osgText osgViewer osgShadow osgTerrain)
+find_package(OpenSceneGraph 3.6.5 REQUIRED COMPONENTS osg osgUtil osgAnimation osgDB osgFX osgGA osgText osgViewer osgShadow osgTerrain)
 include(${CMAKE_CURRENT_LIST_DIR}/OsgTargets.cmake)
 set(gnomon_embree_versions 4 3)
 include(${CMAKE_CURRENT_LIST_DIR}/MathLibraries.cmake)

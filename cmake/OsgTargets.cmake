@@ -9,7 +9,7 @@ function(gnomon_import_osg kit)
     INTERFACE_SYSTEM_INCLUDE_DIRECTORIES "${${upper}_INCLUDE_DIR}"
     INTERFACE_LINK_LIBRARIES "${${upper}_LIBRARY}")
 endfunction()
-foreach(kit OpenThreads osg osgUtil osgDB osgFX osgGA osgText osgViewer osgShadow osgTerrain)
+foreach(kit OpenThreads osg osgUtil osgAnimation osgDB osgFX osgGA osgText osgViewer osgShadow osgTerrain)
   gnomon_import_osg(${kit})
 endforeach()
 target_link_libraries(osg::osg INTERFACE osg::OpenThreads)

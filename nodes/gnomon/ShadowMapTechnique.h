@@ -37,7 +37,7 @@ class ShadowMapCache;
 /// - On a ground of many kilometres that begins under a close near plane, things of centimetres may lose their shadow, if the
 ///   ground is one drawable of more than 2,000 triangles or a program moves it.
 /// - Facets decide what faces away from the light, and such a facet is wholly in shadow; one along the light is wholly lit or
-///   wholly dark. Smooth bodies: see ShadowCasterGroup::setTerminatorOffset().
+///   wholly dark. Smooth bodies, unless a program moves them: see ShadowCasterGroup::setTerminatorOffset().
 /// - An edge is off by a fraction of a texel, see ShadowMapOptions::Filter.
 /// - An object loses its shadow if it is less than about a texel off the receiver, measured along the light.
 /// - A wall thinner than about two texels may let single pixels of light through where it stands on the floor.
@@ -51,7 +51,10 @@ class ShadowMapCache;
 ///   only estimated.
 /// - Penumbras are streaky where a caster is nearer to the lamp than the lamp is wide.
 /// - Penumbras end at 128 texels, and at the borders of a lamp's maps.
-/// - Casters that draw themselves need bounds. Each costs as much as in the view, in every map that changes.
+/// - Casters that draw themselves, or that a program moves, need bounds that hold them: what is beyond may cast nothing. Each
+///   costs as much as in the view, in every map that changes.
+/// - A program that moves casters must take OpenGL's or OpenSceneGraph's projection, and set no depth of its own. Else they cast
+///   where their arrays stand, and diagnose() names the node.
 /// - A caster that draws itself is redrawn each frame if it has no display list or is DYNAMIC. Otherwise, changes of its
 ///   place, bounds, state sets and uniforms show.
 /// - Glass casts no tinted shadow: a point of a caster is solid or clear, see ShadowCasterGroup::setOpaqueFrom().
@@ -92,7 +95,7 @@ class ShadowMapCache;
 /// - A caster casts where it passes its alpha test. One that blends without a test casts where its alpha is
 ///   ShadowCasterGroup::setOpaqueFrom() or more.
 /// - Casters whose alpha is that of a 2D texture on unit 0 are drawn together. Others, such as those whose program
-///   discards, are drawn into the map one by one with their own state, and anew where the view moves.
+///   discards or moves vertices, are drawn into the map one by one with their own state, and anew where the view moves.
 /// - If the map is coarser than the texture, the texture's mipmaps are tested.
 ///
 /// In a file (.osgt, .osgb, .osgx), properties left out have their defaults:

@@ -53,6 +53,38 @@ TEST(ProgramText, InstancesBonesAndWavesMoveThem) {
                       "gl_Position = gl_ModelViewProjectionMatrix * (gl_Vertex + vec4(0, 0, sin(time), 0)); }"));
 }
 
+TEST(ProgramText, MapsLetThoseMoveThatTakeTheProjection) {
+    const auto follows = [](const std::string& vertex, const std::string& fragment = "") {
+        return gnomon::placesOf(*programOf(vertex, fragment)).castsWhereItMoves();
+    };
+    const std::string raised = "vec4 v = gl_Vertex; v.z += 1.0; gl_Position = ";
+    EXPECT_TRUE(follows("void main() { " + raised + "gl_ModelViewProjectionMatrix * v; }"));
+    EXPECT_TRUE(follows("uniform mat4 osg_ProjectionMatrix, eyeFromLocal; void main() { " + raised +
+                        "osg_ProjectionMatrix * eyeFromLocal * v; }"));
+    EXPECT_FALSE(follows("uniform mat4 clipFromLocal; void main() { " + raised + "clipFromLocal * v; }"));
+    EXPECT_FALSE(follows("void main() { gl_Position = ftransform(); }")) << "moves nothing";
+    EXPECT_FALSE(follows("void main() { " + raised + "gl_ModelViewProjectionMatrix * v; }",
+                         "void main() { if (fract(gl_FragCoord.x * 0.5) > 0.4) discard; }"));
+    EXPECT_FALSE(follows("void main() { " + raised +
+                         "gl_ModelViewProjectionMatrix * v;\n"
+                         "gl_Position.z = log2(gl_Position.w) * gl_Position.w; }"));
+}
+
+TEST(ProgramText, AGeometryShaderMayMakeTriangles) {
+    const auto makes = [](const std::string& text, int output) {
+        const osg::ref_ptr<osg::Program> program = programOf("void main() { gl_Position = ftransform(); }");
+        program->addShader(new osg::Shader(osg::Shader::GEOMETRY, text));
+        program->setParameter(GL_GEOMETRY_OUTPUT_TYPE_EXT, output);
+        return gnomon::placesOf(*program).makesTriangles;
+    };
+    const std::string in = "#version 150\nlayout(points) in; layout(", out = ", max_vertices = 3) out; void main() {}";
+    EXPECT_TRUE(makes(in + "triangle_strip" + out, GL_LINE_STRIP));
+    EXPECT_FALSE(makes(in + "line_strip" + out, GL_TRIANGLE_STRIP));
+    EXPECT_TRUE(makes("void main() {}", GL_TRIANGLE_STRIP));
+    EXPECT_FALSE(makes("void main() {}", GL_LINE_STRIP));
+    EXPECT_FALSE(gnomon::placesOf(*programOf("void main() { gl_Position = ftransform(); }")).makesTriangles);
+}
+
 TEST(ProgramText, EachWayToWriteAPartOfThemMovesThem) {
     const std::string then = " gl_Position = gl_ModelViewProjectionMatrix * v; }";
     for (const std::string way :

@@ -14,11 +14,12 @@ GNOMON_BY_TECHNIQUE(ProgramPlaces);
 
 const char* const colored = "gl_FrontColor = gl_Color; ";
 
-osg::ref_ptr<osg::Program> vertexProgram(const std::string& body) {
+osg::ref_ptr<osg::Program> programOf(const std::string& declared, const std::string& body) {
     osg::ref_ptr<osg::Program> program = new osg::Program;
-    program->addShader(new osg::Shader(osg::Shader::VERTEX, "void main() { " + (colored + body) + " }"));
+    program->addShader(new osg::Shader(osg::Shader::VERTEX, declared + "void main() { " + (colored + body) + " }"));
     return program;
 }
+osg::ref_ptr<osg::Program> vertexProgram(const std::string& body) { return programOf("", body); }
 
 const Mesh standing = box({-1.5, -0.5, 0.0}, {-0.5, 0.5, 1.0});
 const Mesh displaced = moved(standing, {2.0, 0.5, 0.5});
@@ -86,11 +87,33 @@ bool has(const std::vector<std::string>& causes, const std::string& text) {
 
 } // namespace
 
+/// But where a map lets the program draw.
 TEST_P(ProgramPlaces, ACasterThatAProgramMovesIsNamed) {
     Moving moving;
-    EXPECT_TRUE(has(moving.causes(), "the program of 'figure' moves its vertices"));
+    if (GetParam() == By::Map) {
+        EXPECT_EQ(moving.causes(), std::vector<std::string>());
+    } else {
+        EXPECT_EQ(moving.causes().size(), 1u);
+        EXPECT_TRUE(has(moving.causes(), "the program of 'figure' moves its vertices, but it casts where its arrays "
+                                         "stand. Use map, or take it out of the casters"));
+    }
     moving.box->getStateSet()->setAttribute(vertexProgram("gl_Position = ftransform();"));
     EXPECT_TRUE(moving.causes().empty());
+}
+
+/// None can draw it as the light sees it, or knows which pixels a light would leave out.
+TEST_P(ProgramPlaces, ACasterThatAProgramMovesByItsOwnProjectionIsNamed) {
+    Moving moving;
+    const osg::ref_ptr<osg::Program> own = programOf("uniform mat4 mine; ", "gl_Position = mine * (gl_Vertex + 1.0);"),
+                                     door = vertexProgram(displacing);
+    door->addShader(new osg::Shader(osg::Shader::FRAGMENT,
+                                    "void main() { if (fract(gl_FragCoord.x * 0.5) > 0.4) discard; gl_FragColor = "
+                                    "vec4(1.0); }"));
+    for (const auto& program : {own, door}) {
+        moving.box->getOrCreateStateSet()->setAttribute(program);
+        EXPECT_TRUE(has(moving.causes(), "the program of 'figure' moves its vertices by a projection or depth of its "
+                                         "own, or discards by pixels, so it casts where its arrays stand"));
+    }
 }
 
 TEST_P(ProgramPlaces, AProxyThatIsNeverDrawnCastsInItsPlace) {

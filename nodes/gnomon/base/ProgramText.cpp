@@ -252,43 +252,60 @@ private:
     bool _arrives = false, _discardsOtherwise = false;
 };
 
-ProgramPlaces found(const osg::Program& program, const std::string& vertex, const std::string& fragment) {
+bool takesProjection(const std::string& text) {
+    return contains(text, "ftransform") || contains(text, "gl_ModelViewProjectionMatrix") ||
+           contains(text, "gl_ProjectionMatrix") || contains(text, "osg_ModelViewProjectionMatrix") ||
+           contains(text, "osg_ProjectionMatrix");
+}
+
+/// Shaders before GLSL 1.50 have no layouts: a parameter of the program says what they make.
+bool makesTriangles(const osg::Program& program) {
+    for (unsigned i = 0; i < program.getNumShaders(); ++i) {
+        const std::string& text = program.getShader(i)->getShaderSource();
+        if (program.getShader(i)->getType() != osg::Shader::GEOMETRY) continue;
+        return contains(text, "layout") ? contains(text, "triangle_strip")
+                                        : program.getParameter(GL_GEOMETRY_OUTPUT_TYPE_EXT) == GL_TRIANGLE_STRIP;
+    }
+    return false;
+}
+
+/// @param others  texts of the stages between the two.
+ProgramPlaces found(const osg::Program& program, const std::string& vertex, const std::string& fragment,
+                    const std::string& others) {
     const Tokens tokens = tokensOf(vertex);
     ProgramPlaces places;
-    places.movesVertices = !vertex.empty() && !VertexWay(tokens, program).arrives();
+    places.movesVertices = !others.empty() || (!vertex.empty() && !VertexWay(tokens, program).arrives());
     places.setsDepth = bendsDepth(vertex, tokens) || replacesDepth(fragment);
     const Tokens inFragment = contains(fragment, discard) ? tokensOf(fragment) : Tokens();
     const bool isDiscarded = std::find(inFragment.begin(), inFragment.end(), discard) != inFragment.end();
     places.discardsByPixel = isDiscarded && PixelWay(inFragment).arrives();
     places.discards =
         isDiscarded || std::any_of(tokens.begin(), tokens.end(), [](const auto& token) { return cuts(token); });
+    places.takesProjection = takesProjection(vertex) || takesProjection(others);
     return places;
 }
 
 } // namespace
 
 ProgramPlaces placesOf(const osg::Program& program) {
-    std::string vertex, fragment;
-    bool others = false;
+    std::string vertex, fragment, others;
     for (unsigned i = 0; i < program.getNumShaders(); ++i) {
         const osg::Shader& shader = *program.getShader(i);
         const bool isVertex = shader.getType() == osg::Shader::VERTEX,
                    isFragment = shader.getType() == osg::Shader::FRAGMENT;
-        if (isVertex) vertex += shader.getShaderSource() + "\n";
-        if (isFragment) fragment += shader.getShaderSource() + "\n";
-        others = others || !(isVertex || isFragment);
+        (isVertex ? vertex : isFragment ? fragment : others) += shader.getShaderSource() + "\n";
     }
     static OpenThreads::Mutex mutex;
     static std::map<std::size_t, ProgramPlaces> known;
-    std::string all = vertex + '\0' + fragment;
+    std::string all = vertex + '\0' + fragment + '\0' + others;
     for (const auto& [name, index] : program.getAttribBindingList()) all += '\0' + name + std::to_string(index);
     const std::size_t key = std::hash<std::string>()(all);
     const OpenThreads::ScopedLock<OpenThreads::Mutex> lock(mutex);
     if (known.size() > 1000) known.clear(); // texts that are made anew in each frame
     const auto [entry, isNew] = known.try_emplace(key);
-    if (isNew) entry->second = found(program, vertex, fragment);
+    if (isNew) entry->second = found(program, vertex, fragment, others);
     ProgramPlaces places = entry->second;
-    places.movesVertices = places.movesVertices || others;
+    places.makesTriangles = !others.empty() && makesTriangles(program);
     return places;
 }
 

@@ -7,7 +7,7 @@ namespace gnomon {
 
 /// What the GLSL text of a program says of where, and what, it draws.
 ///
-/// A reader of text can be deceived: by functions, branches and uniforms. A caster is told by `discards` alone.
+/// A reader of text can be deceived: by functions, branches and uniforms.
 struct ProgramPlaces {
     /// Vertices may go elsewhere than OpenGL's matrices take them: by instance, bone, displacement, or in another stage.
     bool movesVertices = false;
@@ -20,6 +20,13 @@ struct ProgramPlaces {
     bool discardsByPixel = false;
     /// Its text is not known: see mayApplyProgram(). It counts as one that does all of the above but the last.
     bool unseen = false;
+    /// It reads OpenGL's or OpenSceneGraph's projection: where a light's stands in its place, it draws what the light sees.
+    bool takesProjection = false;
+    /// A geometry shader makes triangles, of points and lines, too.
+    bool makesTriangles = false;
+
+    /// True if what it moves is drawn into maps by itself. A screen door casts whole, as arrays stand.
+    bool castsWhereItMoves() const { return movesVertices && takesProjection && !setsDepth && !discardsByPixel; }
 };
 
 /// Threads any number. What was found is kept, by the text.

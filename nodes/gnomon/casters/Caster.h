@@ -39,8 +39,8 @@ struct Caster : public osg::Referenced {
     std::size_t triangles = 0;                  ///< Number of its triangles.
     unsigned invalidTriangles = 0;              ///< Triangles left out; see CasterExtraction::getInvalidTriangles().
     std::string invalidNode;                    ///< See CasterExtraction::getInvalidNode().
-    bool cutOut = false;                        ///< It has triangles that are clear in part.
-    bool selfDrawn = false;                     ///< The same, and only its own drawing tells what is clear.
+    bool cutOut = false;                        ///< It has triangles that are clear in part, or that a program moves.
+    bool selfDrawn = false;                     ///< The same, and only its own drawing tells what is where.
     osg::ref_ptr<const TextureAlpha> alphas;    ///< Of the texture that its casting looked at; may be null.
     std::string cutoutNode;                     ///< See CasterExtraction::getCutoutNode(); of Casting::byPixel, too.
     std::vector<osg::ref_ptr<const osg::Referenced>> sources; ///< See CasterExtraction::getSources().
@@ -60,12 +60,12 @@ bool isBody(const Caster& piece);
 /// Casters, one for each drawable and path.
 using CasterList = std::vector<osg::ref_ptr<const Caster>>;
 
-/// A caster whose shape, or whose clear parts, only its own code, program or state knows, at one place in the graph. It
+/// A caster whose shape, place or clear parts only its own code, program or state knows, at one place in the graph. It
 /// never changes. drawsItself() and Caster::selfDrawn tell which drawables are such.
 ///
 /// Limits
-/// - It counts as changed by its place, bounds, arrays and all that its state sets give. Where contents cannot be told it is
-///   drawn again in each frame; see changesUnseen(). What moves otherwise is DYNAMIC.
+/// - It counts as changed by its place, bounds, arrays and all that its state sets give, uniforms by their values. Where
+///   contents cannot be told it is drawn again in each frame; see changesUnseen(). What moves otherwise is DYNAMIC.
 struct SelfDrawing : public osg::Referenced {
     /// Of the drawable at the end of a path, which begins at the group.
     SelfDrawing(const osg::NodePath& path, const osg::Drawable& drawable, const osg::Matrixd& groupFromLocal,

@@ -38,7 +38,7 @@ public:
         if (casting.test) _clear.emplace(*casting.test, drawable);
         _keepsCoordinates = casting.test && casting.test->isSampled();
         _mixed = casting.selfDrawn;
-        if (!casting.offsetsTerminator || casting.test || casting.selfDrawn) return;
+        if (!casting.offsetsTerminator || casting.test || (casting.selfDrawn && !casting.moved)) return;
         _normals = normalsOf(drawable);
         if (!_normals.empty()) _localFromRoot = osg::Matrixd::inverse(rootFromLocal);
     }

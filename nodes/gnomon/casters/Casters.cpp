@@ -93,7 +93,8 @@ protected:
         placed.mix(static_cast<std::uint64_t>(hiding()));
         const std::uint64_t value = placed.value();
         _fingerprint.mix(value);
-        if (pieceOf(drawable, casting, geometry, value).selfDrawn) addSelfDrawing(drawable, casting, value);
+        const Caster& piece = pieceOf(drawable, casting, geometry, value);
+        if (piece.selfDrawn && !drawsItself(drawable)) addSelfDrawing(drawable, casting, value);
     }
 
     void applySelfDrawing(osg::Drawable& drawable, const Casting& casting) override {
@@ -225,7 +226,9 @@ private:
         holdSources(drawable, piece->sources);
         casting.hold(drawable, piece->sources);
         if (!isKnown && (isOfLevels() || !casting.isWhole() || found.anyInvalid)) describe(*piece);
-        if (!casting.test && casting.selfDrawn && piece->triangles > 0) {
+        const bool isAny = piece->triangles > 0 || casting.makesTriangles ||
+                           (casting.moved && drawable.asGeometry() && drawsTriangles(*drawable.asGeometry()));
+        if (!casting.test && casting.selfDrawn && isAny) {
             piece->cutOut = piece->selfDrawn = true;
             piece->cutoutNode = nameAlong(getNodePath());
         }
@@ -339,7 +342,7 @@ Casters::Casters(CasterList pieces, std::uint64_t fingerprintOfAll, std::uint64_
         if (invalidTriangles == 0) invalidNode = piece->invalidNode;
         invalidTriangles += piece->invalidTriangles;
         if (cutouts == 0) cutoutNode = piece->cutoutNode;
-        cutouts += piece->cutOut;
+        cutouts += piece->cutOut && !piece->casting.moved;
         if (piece->casting.byPixel && screenDoors++ == 0) screenDoorNode = piece->cutoutNode;
     }
 }

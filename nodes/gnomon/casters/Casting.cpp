@@ -159,15 +159,17 @@ bool takesVertexColor(const osg::Material& material) {
 } // namespace
 
 struct CastingJudge::Resolved {
-    bool nothing = false;    ///< is drawn, or hides anything.
-    bool discards = false;   ///< a program.
-    bool byPixel = false;    ///< the same, by gl_FragCoord.
-    bool blends = false;     ///< by alpha.
-    bool programmed = false; ///< alpha comes from a program.
-    bool late = false;       ///< drawn with what is transparent.
-    bool unknown = false;    ///< alpha is nothing that could be read.
-    bool replaces = false;   ///< the texture's alpha is that of all.
-    unsigned clipModes = 0;  ///< a bit each.
+    bool nothing = false;        ///< is drawn, or hides anything.
+    bool discards = false;       ///< a program.
+    bool byPixel = false;        ///< the same, by gl_FragCoord.
+    bool moves = false;          ///< a program, which maps let draw what it moves.
+    bool makesTriangles = false; ///< such a program, of points, too.
+    bool blends = false;         ///< by alpha.
+    bool programmed = false;     ///< alpha comes from a program.
+    bool late = false;           ///< drawn with what is transparent.
+    bool unknown = false;        ///< alpha is nothing that could be read.
+    bool replaces = false;       ///< the texture's alpha is that of all.
+    unsigned clipModes = 0;      ///< a bit each.
     std::optional<unsigned> restart;
     std::optional<std::pair<int, float>> test; ///< which alphas pass, and the reference.
     std::optional<float> material;             ///< alpha, if it is not that of colours.
@@ -249,7 +251,7 @@ void CastingJudge::reset() {
 
 const ProgramPlaces& CastingJudge::placesIn(const osg::Program& program) {
     const auto [known, isNew] = _programs.try_emplace(&program);
-    if (isNew && mayDiscard(program)) known->second = placesOf(program);
+    if (isNew) known->second = placesOf(program);
     return known->second;
 }
 
@@ -260,7 +262,8 @@ bool CastingJudge::mayMatter(const osg::StateSet& set) {
     for (const auto& [type, attribute] : set.getAttributeList()) {
         const auto* program =
             type.first == A::PROGRAM ? dynamic_cast<const osg::Program*>(attribute.first.get()) : nullptr;
-        if (program ? placesIn(*program).discards : removes(*attribute.first)) return true;
+        if (!program && removes(*attribute.first)) return true;
+        if (program && (placesIn(*program).discards || placesIn(*program).castsWhereItMoves())) return true;
     }
     return false;
 }
@@ -270,8 +273,11 @@ const CastingJudge::Resolved& CastingJudge::resolved(const PathState& state) {
     _sets = state.sets();
     const auto now = std::make_shared<Resolved>(state, _rule.value_or(CastingRule()));
     const osg::Program* program = state.program();
-    now->discards = (program && placesIn(*program).discards) || state.hasUnseenProgram();
-    now->byPixel = program && placesIn(*program).discardsByPixel;
+    const ProgramPlaces places = program ? placesIn(*program) : ProgramPlaces();
+    now->discards = places.discards || state.hasUnseenProgram();
+    now->byPixel = places.discardsByPixel;
+    now->moves = places.castsWhereItMoves();
+    now->makesTriangles = now->moves && places.makesTriangles;
     if (state.isOn(fixedRestart))
         now->restart = ~0u;
     else if (state.isOn(GL_PRIMITIVE_RESTART)) {
@@ -359,7 +365,9 @@ Casting CastingJudge::of(const osg::NodePath& path, const osg::Drawable& drawabl
     if (!result.casts) return result;
     result.byPixel = found.byPixel;
     if (result.byPixel) return result;
-    result.selfDrawn = found.discards;
+    result.selfDrawn = found.discards || found.moves;
+    result.moved = found.moves && !found.discards;
+    result.makesTriangles = found.makesTriangles;
     const bool counts =
         found.test || (found.blends && (!found.programmed || found.late)); // a program's alpha may be any
     if (!counts) return result;
@@ -369,6 +377,7 @@ Casting CastingJudge::of(const osg::NodePath& path, const osg::Drawable& drawabl
     if (found.programmed || found.unknown || found.discards || colors.unknown ||
         (found.texture && !AlphaTest::hasCoordinates(drawable))) {
         result.selfDrawn = true;
+        result.moved = false;
         return result;
     }
     AlphaTest test;
@@ -394,6 +403,7 @@ void Casting::mix(const osg::Drawable& drawable, Fingerprint& into) const {
     if (byPixel) into.mix(double{-1.0});
     if (offsetsTerminator) into.mix(double{-2.0});
     if (selfDrawn) into.mix(double{1.0f + opaqueFrom});
+    if (moved) into.mix(double{-3.0});
     for (const auto& [number, plane] : clips) {
         into.mix(std::uint64_t{number});
         for (int i = 0; i < 4; ++i) into.mix(plane[i]);

@@ -196,6 +196,8 @@ using NumberedPlane = std::pair<unsigned, osg::Vec4d>;
 ///   scissor box, or stippled to less than half.
 /// - Of what has an alpha test or blends, the parts that pass the test, or have an alpha of CastingRule::opaqueFrom.
 /// - What clip planes leave, as CastingRule::clips has it.
+/// - Of what a program moves, all, where its arrays stand. Maps let the program draw it in its place: see
+///   ProgramPlaces::castsWhereItMoves().
 /// - Of what a program discards, or may discard where its text is not known, nobody knows what is left but who draws it. Of what
 ///   it discards by gl_FragCoord, all.
 ///
@@ -206,7 +208,9 @@ using NumberedPlane = std::pair<unsigned, osg::Vec4d>;
 /// - A ClipPlane of a state set, without a ClipNode, is taken as given in the drawable's own frame.
 struct Casting {
     bool casts = true;             ///< False if nothing of it does.
-    bool selfDrawn = false;        ///< Only drawing it tells which parts are clear. Each triangle may be in part.
+    bool selfDrawn = false;        ///< Only drawing it tells which parts are clear, and where it is.
+    bool moved = false;            ///< The same, because a program moves it; no part is clear.
+    bool makesTriangles = false;   ///< The same, because a program makes triangles of points and lines, too.
     bool byPixel = false;          ///< Pixels of the picture tell that, which no light sees: all casts.
     float opaqueFrom = 0.0f;       ///< The alpha from which on it casts where it is drawn without a test. 0: all does.
     std::optional<AlphaTest> test; ///< Which parts are clear. nullopt: none, or selfDrawn.

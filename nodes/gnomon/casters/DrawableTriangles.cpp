@@ -226,6 +226,14 @@ bool hasTriangles(const osg::Drawable& drawable) {
     return drawable.asGeometry() || drawable.supports(any);
 }
 
+bool drawsTriangles(const osg::Geometry& geometry) {
+    const osg::Geometry::PrimitiveSetList& all = geometry.getPrimitiveSetList();
+    return std::any_of(all.begin(), all.end(), [](const auto& set) {
+        return (set->getMode() >= Set::TRIANGLES && set->getMode() <= Set::POLYGON) ||
+               set->getMode() == Set::TRIANGLES_ADJACENCY || set->getMode() == Set::TRIANGLE_STRIP_ADJACENCY;
+    });
+}
+
 bool drawsItself(const osg::Drawable& drawable) {
     if (const osg::Geometry* geometry = drawable.asGeometry()) {
         const osg::Geometry::PrimitiveSetList& all = geometry->getPrimitiveSetList();

@@ -188,6 +188,9 @@ std::vector<osg::Vec4> normalsOf(const osg::Drawable& drawable);
 /// True if OpenSceneGraph can hand out the drawable's triangles: not those of particles, for one.
 bool hasTriangles(const osg::Drawable& drawable);
 
+/// True if triangles are among its primitives, whether it has vertices for them or a program makes those up.
+bool drawsTriangles(const osg::Geometry& geometry);
+
 /// The commands by which a primitive set is drawn indirectly; null for other sets.
 const osg::BufferData* indirectCommands(const osg::PrimitiveSet& set);
 

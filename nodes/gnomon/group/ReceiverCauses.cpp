@@ -106,7 +106,7 @@ void reportNoReceiver(const EnlistedTechnique& entry, osgUtil::RenderStage& stag
 void reportReceiverStates(const TechniqueInStage& asked, const Receiving& receiving) {
     const EnlistedTechnique& entry = asked.entry;
     const auto& [early, late] = receiving;
-    asked.drawn.programs.report(entry.technique->reportIn(entry.frameNumber), *entry.group, early, late);
+    asked.drawn.programs.report(entry, early, late);
     reportSeenThrough(asked);
     if (late.empty()) reportNoDepth(entry, early);
     if (!early.empty() || !late.empty()) reportFog(entry, asked.drawn);

@@ -107,28 +107,45 @@ const DrawablePlaces& ViewPrograms::standing(const osg::Matrixd& projection) con
     return *_standing;
 }
 
-void ViewPrograms::report(const FrameReport& report, const ShadowCasterGroup& group, const Leaves& receiving,
-                          const Leaves& receivingLate) const {
+void ViewPrograms::report(const EnlistedTechnique& entry, const Leaves& receiving, const Leaves& receivingLate) const {
     for (const Leaves* leaves : {&receiving, &receivingLate}) {
         if (_setDepths.empty()) break;
         const auto bends = [this](const auto* leaf) { return _setDepths.count(leaf) > 0; };
         const auto bent = std::find_if(leaves->begin(), leaves->end(), bends);
         if (bent == leaves->end()) continue;
-        report("the program of '" + nameOf(**bent) +
-               "' replaces OpenGL's depth, so its shadow is missing or wrong. Leave gl_Position.z and gl_FragDepth to "
-               "the projection, or leave the node out of the receiver.");
+        entry.report(
+            "the program of '" + nameOf(**bent) +
+            "' replaces OpenGL's depth, so its shadow is missing or wrong. Leave gl_Position.z and gl_FragDepth to "
+            "the projection, or leave the node out of the receiver.");
         break;
     }
-    const osgUtil::RenderLeaf* moved = _moving.empty() ? nullptr : firstCaster(group, _moving, _eyeFromWorld);
-    if (moved)
-        report("the program of '" + nameOf(*moved) +
-               "' moves its vertices, but it casts where its arrays stand. Take it out of the casters (setCasters(), "
-               "--casters), and let a node that is never drawn cast in its place.");
-    if (const std::string name = firstUnseen(group, receiving, receivingLate); !name.empty())
-        report("a state attribute of '" + name +
-               "' may apply a program that cannot be read, as it is no osg::Program. Where that program moves vertices "
-               "or sets a depth, shadows are missing or wrong. Set an osg::Program, or leave the node out of casters "
-               "and receiver.");
+    if (!_moving.empty()) reportMoved(entry);
+    if (const std::string name = firstUnseen(*entry.group, receiving, receivingLate); !name.empty())
+        entry.report(
+            "a state attribute of '" + name +
+            "' may apply a program that cannot be read, as it is no osg::Program. Where that program moves vertices "
+            "or sets a depth, shadows are missing or wrong. Set an osg::Program, or leave the node out of casters "
+            "and receiver.");
+}
+
+/// Maps let programs draw, but for those that do not take the light's projection, or discard by the picture's pixels.
+void ViewPrograms::reportMoved(const EnlistedTechnique& entry) const {
+    const bool letsDraw = entry.technique->drawsCasters();
+    std::vector<DrawnLeaf> left;
+    for (const DrawnLeaf& each : _moving)
+        if (!letsDraw || !placesIn(each.leaf->_parent).castsWhereItMoves()) left.push_back(each);
+    const osgUtil::RenderLeaf* moved = firstCaster(*entry.group, left, _eyeFromWorld);
+    if (!moved) return;
+    if (placesIn(moved->_parent).castsWhereItMoves())
+        entry.report(
+            "the program of '" + nameOf(*moved) +
+            "' moves its vertices, but it casts where its arrays stand. Use map, or take it out of the casters "
+            "(setCasters(), --casters), and let a node that is never drawn cast in its place.");
+    else
+        entry.report("the program of '" + nameOf(*moved) +
+                     "' moves its vertices by a projection or depth of its own, or discards by pixels, so it casts "
+                     "where its arrays stand. Use gl_ProjectionMatrix or osg_ProjectionMatrix under map, or let a node "
+                     "that is never drawn cast in its place.");
 }
 
 std::string ViewPrograms::firstUnseen(const ShadowCasterGroup& group, const Leaves& receiving,

@@ -3,7 +3,6 @@
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ShadowTechnique.h>
 #include <gnomon/ViewFrame.h>
-#include <gnomon/base/FrameDiagnosis.h>
 #include <gnomon/base/ProgramText.h>
 #include <gnomon/casters/Caster.h>
 #include <gnomon/casters/Casting.h>
@@ -66,8 +65,7 @@ public:
     std::uint64_t standingValue() const;
 
     /// For a technique of this group with these receivers.
-    void report(const FrameReport& report, const ShadowCasterGroup& group, const Leaves& receiving,
-                const Leaves& receivingLate) const;
+    void report(const EnlistedTechnique& entry, const Leaves& receiving, const Leaves& receivingLate) const;
 
     /// True if the leaf's program moves its vertices, so that it is not where its box is.
     bool moves(const osgUtil::RenderLeaf& leaf) const { return _moved && _moved->count(&leaf) > 0; }
@@ -75,6 +73,7 @@ public:
     const std::shared_ptr<const LeafSet>& moved() const { return _moved; }
 
 private:
+    void reportMoved(const EnlistedTechnique& entry) const;
     std::string firstUnseen(const ShadowCasterGroup& group, const Leaves& receiving, const Leaves& receivingLate) const;
 
     std::vector<DrawnLeaf> _moving;                  ///< Their program moves vertices.

@@ -268,7 +268,8 @@ MapCasters::MapCasters(const Casters& casters, const osg::ref_ptr<const MapLayer
 double MapCasters::clearanceOfMoving(const glm::dvec3& lamp) const {
     double nearest = moving->clearanceOf(lamp);
     for (const SelfDrawnCaster& caster : selfDrawn)
-        if (!caster.drawing->hasPiece) nearest = std::min(nearest, distance(caster.box, lamp));
+        if (!caster.drawing->hasPiece || caster.drawing->casting.moved)
+            nearest = std::min(nearest, distance(caster.box, lamp));
     return nearest;
 }
 

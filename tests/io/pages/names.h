@@ -24,6 +24,7 @@
 #include <gnomon/TracedShadowTechnique.h>
 #include <gnomon/VertexTraverser.h>
 
+#include <osg/Geometry>
 #include <osg/Material>
 #include <osg/Program>
 #include <osg/ShapeDrawable>
@@ -38,6 +39,7 @@ namespace page {
 
 extern osgViewer::Viewer viewer;
 extern osg::ref_ptr<osg::Camera> camera;
+extern osg::ref_ptr<osg::Geometry> grass;
 extern osg::ref_ptr<osg::Group> root;
 extern osg::ref_ptr<osg::Node> scene, ground, floor, hall, house, model, moved, proxy, terrain, trees;
 extern osg::ref_ptr<osg::LightSource> lightSource;
