@@ -82,6 +82,12 @@ void keepTexture(const osg::StateSet& from, osg::StateSet& into) {
     into.setTextureMode(0, GL_TEXTURE_2D, from.getTextureMode(0, GL_TEXTURE_2D));
 }
 
+void keepMotion(const osg::StateSet& from, osg::StateSet& into) {
+    if (from.getName() != movingState) return;
+    keepAttribute(from, Attribute::PROGRAM, into);
+    for (const auto& [name, uniform] : from.getUniformList()) into.addUniform(uniform.first, uniform.second);
+}
+
 class Whitener : public osg::NodeVisitor {
 public:
     Whitener() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
@@ -104,6 +110,7 @@ private:
     osg::ref_ptr<osg::StateSet> shapeOf(const osg::StateSet& state) {
         osg::ref_ptr<osg::StateSet> shape = new osg::StateSet;
         keepAttributes(state, *shape);
+        keepMotion(state, *shape);
         const Attribute::GLModeValue test = state.getMode(GL_ALPHA_TEST);
         if (!(test & Attribute::INHERIT)) _alphaTested = (test & Attribute::ON) != 0;
         _texture = textureBelow(state);

@@ -31,6 +31,9 @@ struct ChartScene {
     std::function<osg::ref_ptr<osg::Node>(osg::Node& root)> around;
 };
 
+/// Name of state sets whose program moves vertices and shades by OpenGL's light: it stays where the scene is drawn white.
+constexpr const char* movingState = "moving";
+
 /// The camera moved on by `step` degrees about the vertical through what it looks at; the light turned likewise. Near and
 /// far follow the scene's bounds.
 SceneCamera movedCamera(const ChartScene& scene, double step);

@@ -2,8 +2,14 @@
 // What is hard on shadow maps.
 #include "SceneParts.h"
 
+#include <gnomon/Convert.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/trigonometric.hpp>
+#include <osg/Geometry>
 #include <osg/LOD>
 #include <osg/MatrixTransform>
+#include <osg/Program>
 
 #include <algorithm>
 #include <cmath>
@@ -211,6 +217,86 @@ SceneParts instances(double count) {
     return parts;
 }
 
+/// A drawable whose program takes vertex v and normal n elsewhere, lit as by OpenGL. Drawn from buffers, as lists hold no instances.
+osg::ref_ptr<osg::Node> programmed(const Mesh& mesh, const std::string& declared, const std::string& motion,
+                                   const osg::BoundingBox& bounds) {
+    const osg::ref_ptr<osg::Geode> result = node(mesh);
+    osg::Geometry& geometry = *result->getDrawable(0)->asGeometry();
+    geometry.setUseDisplayList(false);
+    geometry.setUseVertexBufferObjects(true);
+    geometry.setInitialBound(bounds);
+    const osg::ref_ptr<osg::Program> program = new osg::Program;
+    program->addShader(new osg::Shader(
+        osg::Shader::VERTEX,
+        "#version 140\n#extension GL_ARB_compatibility : enable\n" + declared +
+            "\nvoid main() { vec4 v = gl_Vertex; vec3 n = gl_Normal; " + motion +
+            "\nfloat share = max(dot(normalize(gl_NormalMatrix * n), normalize(gl_LightSource[0].position.xyz)), "
+            "0.0);\n"
+            "gl_FrontColor = gl_FrontLightModelProduct.sceneColor + gl_FrontLightProduct[0].ambient + share * "
+            "gl_FrontLightProduct[0].diffuse; gl_Position = gl_ModelViewProjectionMatrix * v; }"));
+    geometry.getOrCreateStateSet()->setAttribute(program);
+    geometry.getStateSet()->setName(movingState);
+    return result;
+}
+
+/// So many columns by one drawable: its program tells where each stands.
+SceneParts instancesByProgram(double count) {
+    SceneParts parts = onGround();
+    parts.truth = new osg::Group;
+    parts.truth->addChild(node(square(12.0), "ground"));
+    const int side = static_cast<int>(std::ceil(std::sqrt(count)));
+    const Mesh column = house({0.0, 0.0}, {0.3, 0.3, 0.8}, 25.0);
+    const osg::ref_ptr<osg::Node> drawn =
+        programmed(column, "uniform int side;",
+                   "int row = gl_InstanceID / side; vec2 place = vec2(gl_InstanceID - row * side, row) + vec2(0.5);\n"
+                   "v.xy += 8.0 * (place / float(side) - 0.5);",
+                   osg::BoundingBox(-4.5f, -4.5f, 0.0f, 4.5f, 4.5f, 1.0f));
+    osg::Geometry& geometry = *drawn->asGroup()->getChild(0)->asGeometry();
+    geometry.getPrimitiveSet(0)->setNumInstances(int(count));
+    geometry.getStateSet()->addUniform(new osg::Uniform("side", side));
+    parts.add(drawn);
+    for (int i = 0; i < int(count); ++i)
+        parts.truth->addChild(
+            node(moved(column, 8.0 * dvec3((i % side + 0.5) / side - 0.5, (i / side + 0.5) / side - 0.5, 0.0))));
+    return parts;
+}
+
+/// Two trunks that two bones bend, by weights that grow with the height.
+SceneParts skinned(double degrees) {
+    SceneParts parts = onGround();
+    parts.truth = new osg::Group;
+    parts.truth->addChild(node(square(12.0), "ground"));
+    const glm::dmat4 bone = glm::rotate(glm::translate(glm::dmat4(1.0), dvec3(0.0, 0.0, 1.5)), glm::radians(degrees),
+                                        dvec3(0.6, 0.8, 0.0)) *
+                            glm::translate(glm::dmat4(1.0), dvec3(0.0, 0.0, -1.5));
+    for (const double x : {-2.0, 2.0}) {
+        Mesh trunk;
+        for (int ring = 0; ring < 12; ++ring) {
+            const Mesh part = boxAt({0.0, 0.0, 0.25 * ring}, {0.7, 0.7, 0.25});
+            trunk.insert(trunk.end(), part.begin(), part.end());
+        }
+        const osg::ref_ptr<osg::Node> drawn =
+            programmed(trunk, "uniform mat4 bones[2];",
+                       "float weight = clamp(gl_Vertex.z - 1.0, 0.0, 1.0);\n"
+                       "v = (1.0 - weight) * (bones[0] * gl_Vertex) + weight * (bones[1] * gl_Vertex);\n"
+                       "n = (1.0 - weight) * gl_Normal + weight * (mat3(bones[1]) * gl_Normal);",
+                       osg::BoundingBox(-3.5f, -3.5f, -1.0f, 3.5f, 3.5f, 3.5f));
+        const osg::ref_ptr<osg::Uniform> bones = new osg::Uniform(osg::Uniform::FLOAT_MAT4, "bones", 2);
+        bones->setElement(0, osg::Matrixf());
+        bones->setElement(1, osg::Matrixf(toOsg(bone)));
+        drawn->asGroup()->getChild(0)->getStateSet()->addUniform(bones);
+        osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(osg::Matrixd::translate(x, 0.0, 0.0));
+        place->addChild(drawn);
+        parts.add(place);
+        for (dvec3& corner : trunk) {
+            const double weight = std::clamp(corner.z - 1.0, 0.0, 1.0);
+            corner = (1.0 - weight) * corner + weight * dvec3(bone * glm::dvec4(corner, 1.0)) + dvec3(x, 0.0, 0.0);
+        }
+        parts.truth->addChild(node(trunk));
+    }
+    return parts;
+}
+
 } // namespace
 
 std::vector<StabilityScene> mapScenes() {
@@ -248,6 +334,10 @@ std::vector<StabilityScene> mapScenes() {
                 "switching ranges", {0.5, 0.9, 1.1, 2.0, 5.0}, coarseCasters);
     section.add("S13", "Shared subgraphs", "One drawable under many parents casts at each of its places.", "places", "",
                 {1.0, 4.0, 16.0, 64.0, 256.0}, instances);
+    section.add("S14", "Instances", "What a program draws in many places casts at each of them.", "places", "",
+                {1.0, 4.0, 16.0, 64.0, 256.0}, instancesByProgram);
+    section.add("S15", "Skinned bodies", "The shadow bends with the body that a program bends.", "bend", "°",
+                {0.0, 15.0, 30.0, 60.0, 90.0}, skinned);
     return section.scenes();
 }
 
