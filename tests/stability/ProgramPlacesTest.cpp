@@ -209,6 +209,30 @@ TEST_P(ProgramPlaces, AnAttributeThatMayApplyAProgramIsNamed) {
     }
 }
 
+/// What an application's own matrix makes of it under a light nobody knows: all of it casts.
+TEST_P(ProgramPlaces, HolesUnderAProjectionOfItsOwnAreClosed) {
+    const View view = fromAbove(4.0, 128);
+    const osg::ref_ptr<osg::Program> holes =
+        programOf("#version 130\nuniform mat4 mine; out float x; ", "x = gl_Vertex.x; gl_Position = mine * gl_Vertex;");
+    holes->addShader(new osg::Shader(osg::Shader::FRAGMENT, "#version 130\nin float x; void main() {\n"
+                                                            "if (x < -1.0) discard; gl_FragColor = gl_Color; }"));
+    const Mesh hole = quad({-2.0, -1.0, 1.0}, {1.0, 0.0, 0.0}, {0.0, 2.0, 0.0}), rest = moved(hole, {1.0, 0.0, 0.0});
+    const osg::ref_ptr<osg::Geode> figure = node(joined({hole, rest}), "figure");
+    figure->getOrCreateStateSet()->setAttribute(holes);
+    figure->getStateSet()->addUniform(new osg::Uniform("mine", osg::Matrixf(view.view * view.projection)));
+    Scene lit = sceneOf(figure), dark = sceneOf(figure), scene = sceneOf(figure);
+    dark.takeLightAway();
+    const osg::ref_ptr<gnomon::ShadowTechnique> technique = castingTechnique(find(*scene.root, "ground"));
+    scene.addShadow(technique);
+    const Truth truth{render(lit.root, view), render(dark.root, view),
+                      castRays(square(8.0), {rest}, {1.0, 0.0, 1.0, 0.0}, view, {hole}), 2};
+    EXPECT_TRUE(shows(render(scene.root, view), truth));
+    EXPECT_TRUE(has(technique->diagnose(),
+                    "what discards by gl_FragCoord, or has a projection of its own and discards, "
+                    "casts as if it were solid, because no light can draw it: 1, the first in "
+                    "'figure'"));
+}
+
 /// A roof of which x < -1 is cut off: it is drawn into the map by itself, whoever applies the program.
 TEST(ProgramsInMaps, CutAsTheyDoInTheView) {
     const std::string vertex = "#version 130\nout float x; void main() { x = gl_Vertex.x; gl_FrontColor = gl_Color;\n"

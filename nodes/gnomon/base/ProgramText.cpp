@@ -281,7 +281,8 @@ ProgramPlaces found(const osg::Program& program, const std::string& vertex, cons
     places.discardsByPixel = isDiscarded && PixelWay(inFragment).arrives();
     places.discards =
         isDiscarded || std::any_of(tokens.begin(), tokens.end(), [](const auto& token) { return cuts(token); });
-    places.takesProjection = takesProjection(vertex) || takesProjection(others);
+    const bool isFixed = vertex.empty() && others.empty(); // fragments alone are the program's
+    places.takesProjection = isFixed || takesProjection(vertex) || takesProjection(others);
     return places;
 }
 

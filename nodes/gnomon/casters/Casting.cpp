@@ -161,7 +161,7 @@ bool takesVertexColor(const osg::Material& material) {
 struct CastingJudge::Resolved {
     bool nothing = false;        ///< is drawn, or hides anything.
     bool discards = false;       ///< a program.
-    bool byPixel = false;        ///< the same, by gl_FragCoord.
+    bool byPixel = false;        ///< the same, by gl_FragCoord, or under a projection of its own.
     bool moves = false;          ///< a program, which maps let draw what it moves.
     bool makesTriangles = false; ///< such a program, of points, too.
     bool blends = false;         ///< by alpha.
@@ -275,7 +275,7 @@ const CastingJudge::Resolved& CastingJudge::resolved(const PathState& state) {
     const osg::Program* program = state.program();
     const ProgramPlaces places = program ? placesIn(*program) : ProgramPlaces();
     now->discards = places.discards || state.hasUnseenProgram();
-    now->byPixel = places.discardsByPixel;
+    now->byPixel = places.discardsByPixel || (places.discards && !places.takesProjection);
     now->moves = places.castsWhereItMoves();
     now->makesTriangles = now->moves && places.makesTriangles;
     if (state.isOn(fixedRestart))

@@ -199,7 +199,7 @@ using NumberedPlane = std::pair<unsigned, osg::Vec4d>;
 /// - Of what a program moves, all, where its arrays stand. Maps let the program draw it in its place: see
 ///   ProgramPlaces::castsWhereItMoves().
 /// - Of what a program discards, or may discard where its text is not known, nobody knows what is left but who draws it. Of what
-///   it discards by gl_FragCoord, all.
+///   it discards by gl_FragCoord, or under a projection of its own, all.
 ///
 /// Light is not the camera: a face culled for the eye casts, and so does what a scissor box keeps out of a picture.
 ///
@@ -211,7 +211,7 @@ struct Casting {
     bool selfDrawn = false;        ///< Only drawing it tells which parts are clear, and where it is.
     bool moved = false;            ///< The same, because a program moves it; no part is clear.
     bool makesTriangles = false;   ///< The same, because a program makes triangles of points and lines, too.
-    bool byPixel = false;          ///< Pixels of the picture tell that, which no light sees: all casts.
+    bool byPixel = false;          ///< The picture's pixels or projection tell that, which no light has: all casts.
     float opaqueFrom = 0.0f;       ///< The alpha from which on it casts where it is drawn without a test. 0: all does.
     std::optional<AlphaTest> test; ///< Which parts are clear. nullopt: none, or selfDrawn.
     std::vector<NumberedPlane> clips; ///< Planes that cut it, root frame.
