@@ -122,7 +122,8 @@ public:
     /// Default -1, as any number below 0: a drawable with one alpha below 1 all over, as glass and water have, lets light through
     /// and casts nothing. Where textures or vertices give several alphas, parts of 0.5 or more cast.
     /// Alpha is that of textures, times that of osg::Material or of colours. A program's alpha counts in transparent bins alone,
-    /// from 0.5 on. ShadowMapTechnique leaves out the clear parts, the others triangles that are clear all over.
+    /// from 0.5 on. ShadowMapTechnique leaves out the clear parts, and TracedShadowTechnique those that a texture tells. The others
+    /// leave out triangles that are clear all over.
     /// More than 1 is 1. NaN is refused with a warning.
     void setOpaqueFrom(float alpha);
     /// See setOpaqueFrom().

@@ -40,7 +40,8 @@ struct ShadowProbe;
 /// - Embree: see OptionalPart::Traced. No OpenGL and no view.
 /// Limits
 /// - It has no view: the most detailed children of an LOD cast.
-/// - Casters that draw themselves, or are made of patches, are not asked.
+/// - Casters that draw themselves, or are made of patches, are not asked. Those that are clear in part let light through where
+///   TracedShadowTechnique does, also if the technique takes them as solid.
 /// - If the technique names a receiver, its answers hold for points on that receiver only.
 /// - Points on a surface that the light grazes (sine 0.01 or less) may get either answer. Those at the terminator of a smooth
 ///   body get that of its facets: see ShadowCasterGroup::setTerminatorOffset().

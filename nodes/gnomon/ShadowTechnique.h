@@ -103,6 +103,9 @@ public:
     /// True if it draws casters that have no triangles to read, by their own code. Else the compositor reports them.
     /// Default false.
     virtual bool drawsCasters() const { return false; }
+    /// True if it leaves out the parts of casters that are clear by a texture's alpha. Else the compositor reports them.
+    /// Default: as drawsCasters().
+    virtual bool cutsByTextures() const { return drawsCasters(); }
 
     /// True if the technique can shadow a surface that is among its receivers. Default true. Asked in cull, where a frame looks for slow causes.
     /// @param leaf  a leaf of the surface, in view.

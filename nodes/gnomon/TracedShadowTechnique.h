@@ -27,6 +27,8 @@ class TracedFrames;
 /// - One ray for each pixel within the casters' and shadows' bounds, on all cores.
 /// - Pixels whose depth, light and casters are those of the frame before cost a comparison.
 /// - A read of the depth buffer.
+/// - Where casters are clear in part by a texture: a look at its texels for each triangle of theirs that a ray meets, and a byte
+///   a texel.
 /// - After a change of the casters: a ray tree over what changed, see RayScene. A large drawable that moves as a whole
 ///   keeps its tree.
 /// - If stderr is a terminal, a build of more than a second shows its progress there.
@@ -38,7 +40,8 @@ class TracedFrames;
 /// - Edges are hard, by one sample a pixel, unless TracedShadowOptions::SMOOTH is set.
 /// - A single sheet seen from behind is lit as OpenGL lights it: it does not shadow itself.
 /// - Facets decide what faces the light. Smooth bodies: see ShadowCasterGroup::setTerminatorOffset().
-/// - Casters that are clear in part cast as if they were solid, and diagnose() says so.
+/// - Casters that are clear in part by the alpha of vertices, by a program, or by a texture whose texels are not in memory cast as if
+///   they were solid, and diagnose() says so. Of a texture the largest level counts, however far it is.
 /// - Casters that draw themselves, or are made of patches, cast nothing. diagnose() says so.
 /// - Casters are kept as floats about the place where most triangles are. Others at 100 km are right to a centimetre.
 /// - Drawables that write no depth do not receive. A polygon offset or depth range moves the place that receives.
@@ -83,6 +86,8 @@ public:
 
     /// See OptionalPart::Traced.
     std::string whyUnavailable() const override;
+    /// True: rays pass where a texture is clear.
+    bool cutsByTextures() const override { return true; }
 
     /// Number of revisions of the casters that needed ray trees over triangles, whatever the views and lights.
     /// A tree that a ShadowQuery or another technique has of the same casters is shared and does not count.

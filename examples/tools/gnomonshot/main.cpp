@@ -212,7 +212,7 @@ public:
                                      std::to_string(lights.size()) + ".");
         const SceneCamera camera = sceneCamera(*_picture.viewer().getCamera(), _options.view.width,
                                                _options.view.height, sceneBounds(*_setup.group));
-        return SceneTruth(*_setup.group).maps(camera, lights.front());
+        return SceneTruth(*_setup.group, Clear::PASSES).maps(camera, lights.front());
     }
 
     std::vector<std::string> diagnose() const { return _setup.diagnose(); }

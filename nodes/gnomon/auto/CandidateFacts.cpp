@@ -123,6 +123,10 @@ std::string whyCoarse(const ShadowInView& shadow) {
 
 std::string whyCutOut(const Casters& casters) { return casters.cutouts > 0 ? "casters have clear parts" : ""; }
 
+std::string whyDrawnCutOut(const Casters& casters) {
+    return casters.drawnCutouts > 0 ? "casters have clear parts that only drawing them tells" : "";
+}
+
 TerrainFacts TerrainKnowledge::of(const ShadowInView& shadow, const Selection& receiver) {
     if (!hasPart(OptionalPart::Terrain)) return {"this build has no Qhull"};
     if (const std::string cutOut = whyCutOut(shadow.casters); !cutOut.empty()) return {cutOut};

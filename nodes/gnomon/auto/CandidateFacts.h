@@ -33,8 +33,9 @@ bool isFaint(const ShadowInView& shadow);
 /// Why depths do not tell where casters' shadows fall; empty if they do.
 std::string whyCoarse(const ShadowInView& shadow);
 
-/// Why casters need a technique that knows their textures; empty if they do not.
+/// Why casters need a technique that knows their textures, and why they need one that draws them; empty if they do not.
 std::string whyCutOut(const Casters& casters);
+std::string whyDrawnCutOut(const Casters& casters);
 
 /// What a named receiver is like as terrain.
 struct TerrainFacts {

@@ -66,7 +66,7 @@ std::string whyOnlyMaps(const AutoCandidate& candidate, const Casters& casters) 
 }
 
 std::string whyNotTraced(const Casters& casters) {
-    return hasPart(OptionalPart::Traced) ? whyCutOut(casters) : "this build has no Embree";
+    return hasPart(OptionalPart::Traced) ? whyDrawnCutOut(casters) : "this build has no Embree";
 }
 
 /// True if it finds the place of a shadow by the depths of what is seen.
@@ -368,7 +368,8 @@ std::string whyWrong(const AutoCandidate& candidate, const ShadowInView& shadow,
     if (needsDepths(candidate.kind))
         if (const std::string coarse = whyOnlyRays(shadow); !coarse.empty()) return coarse;
     if (candidate.kind == Kind::Terrain) return known.terrain.of(shadow, receiver).obstacle;
-    if (candidate.kind == Kind::Volume || candidate.kind == Kind::Traced) return whyCutOut(shadow.casters);
+    if (candidate.kind == Kind::Volume) return whyCutOut(shadow.casters);
+    if (candidate.kind == Kind::Traced) return whyDrawnCutOut(shadow.casters);
     return {};
 }
 

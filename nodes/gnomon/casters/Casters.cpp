@@ -342,7 +342,10 @@ Casters::Casters(CasterList pieces, std::uint64_t fingerprintOfAll, std::uint64_
         if (invalidTriangles == 0) invalidNode = piece->invalidNode;
         invalidTriangles += piece->invalidTriangles;
         if (cutouts == 0) cutoutNode = piece->cutoutNode;
-        cutouts += piece->cutOut && !piece->casting.moved;
+        const bool isCut = piece->cutOut && !piece->casting.moved;
+        cutouts += isCut;
+        const bool isKnown = !piece->selfDrawn && piece->casting.test && piece->casting.test->isKnown();
+        if (isCut && !isKnown && drawnCutouts++ == 0) drawnCutoutNode = piece->cutoutNode;
         if (piece->casting.byPixel && screenDoors++ == 0) screenDoorNode = piece->cutoutNode;
     }
 }

@@ -67,11 +67,13 @@ public:
     osg::BoundingBoxd bounds;        ///< Bounds of all triangles, group frame. Invalid without triangles.
     unsigned invalidTriangles = 0;   ///< Sum over the pieces.
     std::string invalidNode;         ///< Name of the first drawable with an invalid triangle.
-    unsigned cutouts = 0;            ///< Pieces with triangles that are clear in part: only maps know in which.
-    std::string cutoutNode;          ///< Name of the first of them.
-    unsigned screenDoors = 0;        ///< Pieces of Casting::byPixel.
-    std::string screenDoorNode;      ///< Name of the first of them.
-    std::string leftOut;             ///< See CasterVisitor::leftOut().
+    unsigned cutouts = 0;        ///< Pieces with triangles that are clear in part: only maps and rays know in which.
+    std::string cutoutNode;      ///< Name of the first of them.
+    unsigned drawnCutouts = 0;   ///< Of these, those whose clear parts drawing alone tells: not rays.
+    std::string drawnCutoutNode; ///< Name of the first of them.
+    unsigned screenDoors = 0;    ///< Pieces of Casting::byPixel.
+    std::string screenDoorNode;  ///< Name of the first of them.
+    std::string leftOut;         ///< See CasterVisitor::leftOut().
 
     /// Finds the casters below a node. Reads the graph as a cull traversal does.
     /// @param before  an earlier result, whose unchanged pieces are used again; may be null.
@@ -93,7 +95,7 @@ private:
     friend class CasterTable; ///< it makes the layers, under its lock.
     const CasterLayers& madeLayers() const;
 
-    mutable osg::observer_ptr<CasterTable> _table; ///< whose these are; null: none's.
+    mutable osg::observer_ptr<CasterTable> _table;       ///< whose these are; null: none's.
     mutable std::shared_ptr<const CasterLayers> _layers; ///< null until somebody asks for them.
     mutable std::atomic<bool> _hasLayers{false};
     const std::shared_ptr<std::atomic<bool>> _retired = std::make_shared<std::atomic<bool>>(false);

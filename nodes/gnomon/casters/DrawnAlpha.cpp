@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace gnomon {
@@ -102,6 +103,7 @@ osg::ref_ptr<const TextureAlpha> TextureAlpha::of(const osg::Texture2D& texture)
         return texture.getFilter(which) == osg::Texture::NEAREST;
     };
     if (isNearest(osg::Texture::MIN_FILTER) && isNearest(osg::Texture::MAG_FILTER)) result->_reach = 0.0;
+    result->_mixes = !isNearest(osg::Texture::MAG_FILTER);
     result->_wrap[0] = texture.getWrap(osg::Texture::WRAP_S);
     result->_wrap[1] = texture.getWrap(osg::Texture::WRAP_T);
     const auto border =
@@ -132,6 +134,7 @@ void TextureAlpha::read(const osg::Image& image) {
     _step = (std::max(_size[0], _size[1]) + mostCells - 1) / mostCells;
     for (int axis = 0; axis < 2; ++axis) _cells[axis] = (_size[axis] + _step - 1) / _step;
     _grid.resize(std::size_t(_cells[0]) * std::size_t(_cells[1]));
+    _texels.reserve(std::size_t(_size[0]) * std::size_t(_size[1]));
     const AlphaBytes bytes(image);
     for (int row = 0; row < _size[1]; ++row) {
         const unsigned char* texel = image.data(0, unsigned(row)) + bytes.at;
@@ -143,11 +146,14 @@ void TextureAlpha::read(const osg::Image& image) {
                 here.least = static_cast<std::uint8_t>(std::clamp(std::floor(alpha), 0.0, 255.0));
                 here.most = static_cast<std::uint8_t>(std::clamp(std::ceil(alpha), 0.0, 255.0));
             }
+            _texels.push_back(static_cast<std::uint8_t>((here.least + here.most) / 2));
             cells[column / _step].add(here);
         }
     }
     _all = {};
     for (const Cell& cell : _grid) _all.add(cell);
+    const auto isToBorder = [](osg::Texture::WrapMode wrap) { return wrap == osg::Texture::CLAMP_TO_BORDER; };
+    if (_all.least == _all.most && std::none_of(std::begin(_wrap), std::end(_wrap), isToBorder)) _texels = {};
 }
 
 TextureAlpha::Covered TextureAlpha::coveredAlong(unsigned axis, double low, double high) const {
@@ -195,6 +201,52 @@ AlphaRange TextureAlpha::over(const osg::Vec2d& low, const osg::Vec2d& high) con
                     if (found.least <= _all.least && found.most >= _all.most) return rangeOf(found);
                 }
     return rangeOf(found);
+}
+
+/// Of a place in texels, as the wrap mode has it; -1: the border.
+int TextureAlpha::texelAlong(unsigned axis, double at) const {
+    const int size = _size[axis], texel = static_cast<int>(std::floor(at));
+    if (texel >= 0 && texel < size) return texel;
+    const auto turned = [texel](int by) { return (texel % by + by) % by; };
+    switch (_wrap[axis]) {
+    case osg::Texture::REPEAT:
+        return turned(size);
+    case osg::Texture::MIRROR:
+        return std::min(turned(2 * size), 2 * size - 1 - turned(2 * size));
+    case osg::Texture::CLAMP_TO_BORDER:
+        return -1;
+    case osg::Texture::CLAMP: // mixes with the border, but reaches no farther
+        return _mixes ? -1 : std::clamp(texel, 0, size - 1);
+    default:
+        return std::clamp(texel, 0, size - 1);
+    }
+}
+
+int TextureAlpha::texel(int column, int row) const {
+    if (column < 0 || row < 0) return _border.least;
+    return _texels[std::size_t(row) * std::size_t(_size[0]) + std::size_t(column)];
+}
+
+float TextureAlpha::at(const osg::Vec2d& place) const {
+    if (_texels.empty()) return float(_all.least) / 255.0f;
+    if (!(std::abs(place.x()) < 1e5 && std::abs(place.y()) < 1e5)) return 1.0f; // NaN, too: a place in no image
+    double texels[2];
+    for (unsigned axis = 0; axis < 2; ++axis) {
+        const bool clamps = _wrap[axis] == osg::Texture::CLAMP;
+        texels[axis] = (clamps ? std::clamp(place[axis], 0.0, 1.0) : place[axis]) * _size[axis];
+    }
+    if (!_mixes) return static_cast<float>(texel(texelAlong(0, texels[0]), texelAlong(1, texels[1]))) / 255.0f;
+    const double left = texels[0] - 0.5, low = texels[1] - 0.5, x = left - std::floor(left), y = low - std::floor(low);
+    const int columns[] = {texelAlong(0, left), texelAlong(0, left + 1.0)};
+    const int rows[] = {texelAlong(1, low), texelAlong(1, low + 1.0)};
+    const auto along = [&](int row) { return (1.0 - x) * texel(columns[0], row) + x * texel(columns[1], row); };
+    return static_cast<float>(((1.0 - y) * along(rows[0]) + y * along(rows[1])) / 255.0);
+}
+
+bool AlphaTest::sampled(const osg::Vec3d& coordinate) const {
+    const float alpha = alphas->at({coordinate.x() / coordinate.z(), coordinate.y() / coordinate.z()}),
+                least = sampledReference();
+    return passing & (alpha < least ? 1 : alpha > least ? 4 : 2);
 }
 
 bool AlphaTest::hasCoordinates(const osg::Drawable& drawable) {

@@ -21,10 +21,10 @@ struct AlphaRange {
     float least = 0.0f, most = 1.0f;
 };
 
-/// The alpha of a 2D texture's largest level, in cells: bounds for any part of it.
+/// The alpha of a 2D texture's largest level, texel by texel, and in cells: bounds for any part of it.
 ///
 /// Cost
-/// - One pass over the image; 128 KiB at most.
+/// - One pass over the image; a byte a texel, unless all have one alpha, and 128 KiB at most.
 /// Threads
 /// - Any number. It never changes.
 class TextureAlpha : public osg::Referenced {
@@ -33,8 +33,12 @@ public:
     static osg::ref_ptr<const TextureAlpha> of(const osg::Texture2D& texture);
     /// True until the texture has got another image. One that it has let go, once drawn, counts as it was.
     bool isOf(const osg::Texture2D& texture) const;
+    /// True if the alpha of each texel is known.
+    bool isKnown() const { return !_texels.empty() || _all.least == _all.most; }
     /// Bounds of what a box of texture coordinates shows, its filter included.
     AlphaRange over(const osg::Vec2d& low, const osg::Vec2d& high) const;
+    /// The alpha at a place in texture coordinates, as OpenGL magnifies the largest level: 0 … 1. Of one that isKnown().
+    float at(const osg::Vec2d& place) const;
 
 protected:
     ~TextureAlpha() override = default;
@@ -53,6 +57,8 @@ private:
     };
     Covered coveredAlong(unsigned axis, double low, double high) const;
     void read(const osg::Image& image);
+    int texelAlong(unsigned axis, double at) const;
+    int texel(int column, int row) const;
 
     const osg::Texture2D* const _texture; ///< Identifies it while somebody holds it. Do not dereference it.
     const osg::observer_ptr<const osg::Image> _image;
@@ -60,9 +66,11 @@ private:
     const std::uint64_t _sampling;                        ///< see mixTexture().
     int _size[2] = {0, 0}, _cells[2] = {0, 0}, _step = 1; ///< texels, cells, texels in a cell's side.
     osg::Texture::WrapMode _wrap[2] = {};
+    bool _mixes = true;  ///< texels where it magnifies.
     double _reach = 0.5; ///< texels by which the filter looks beyond a coordinate.
     Cell _border, _all{0, 255};
     std::vector<Cell> _grid;
+    std::vector<std::uint8_t> _texels; ///< of all rows; none if all have the same alpha.
 };
 
 /// Which parts of a drawable an alpha lets cast: that of its surface times that of a texture.
@@ -80,6 +88,10 @@ struct AlphaTest {
     /// True if it can be sampled by the texture alone. Then sampledReference() takes the place of the reference.
     bool isSampled() const { return texture && !byVertex; }
     float sampledReference() const { return reference / surface; }
+    /// True if sampled() can tell.
+    bool isKnown() const { return isSampled() && alphas && alphas->isKnown(); }
+    /// True if there is something of it at texture coordinates (s, t, q). Of one that isKnown().
+    bool sampled(const osg::Vec3d& coordinate) const;
     /// Texture coordinates (s, t, q) of each vertex of a drawable. Empty if it has none.
     static std::vector<osg::Vec3> coordinatesOf(const osg::Drawable& drawable, const osg::Matrixd& matrix);
     /// True if coordinatesOf() has any.

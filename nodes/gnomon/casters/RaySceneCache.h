@@ -11,17 +11,9 @@
 
 namespace gnomon {
 
-/// A mesh as rays take it, in its own frame, while the mesh lives.
-inline TriangleSoup soupOf(const CasterMesh& mesh) {
-    static_assert(sizeof(osg::Vec3) == sizeof(glm::vec3));
-    TriangleSoup soup;
-    soup.vertices = static_cast<const glm::vec3*>(mesh.vertices->getDataPointer());
-    soup.vertexCount = mesh.vertices->size();
-    soup.indices = mesh.triangles->empty() ? nullptr : &mesh.triangles->front();
-    soup.indexCount = mesh.triangles->size();
-    soup.terminatorOffsets = offsetsOf(mesh);
-    return soup;
-}
+/// A mesh as rays take it, in its own frame, while the mesh lives. Where a texture tells what is clear of a caster, rays pass; a
+/// scene that is made of it holds the mesh then.
+TriangleSoup soupOf(const CasterMesh& mesh);
 
 /// The trees over casters that a node or a query casts rays at: one a mesh, kept while it is used, and shared by all
 /// nodes and queries that ask for the same mesh. A revision of several meshes has a tree of two levels over them.

@@ -32,7 +32,7 @@ const bool registered = [] {
     return true;
 }();
 
-/// Casters without triangles are drawn by their own code, or not at all; clear parts of triangles in maps alone.
+/// Casters without triangles are drawn by their own code, or not at all; clear parts of triangles by few.
 void reportSelfDrawings(const EnlistedTechnique& entry, const Casters& casters) {
     const auto report = [&entry](const std::string& cause) { entry.report(cause); };
     const auto& drawings = casters.selfDrawings;
@@ -56,9 +56,12 @@ void reportSelfDrawings(const EnlistedTechnique& entry, const Casters& casters) 
         report("what draws itself or is made of patches casts nothing here: " +
                std::to_string(std::count_if(first, drawings.end(), isAlone)) + ", the first in '" + (*first)->name +
                "'. Use map, or let a node that is never drawn cast in its place.");
-    if (casters.cutouts > 0)
-        report("casters with clear parts cast as if they were solid: " + std::to_string(casters.cutouts) +
-               ", the first in '" + casters.cutoutNode + "'. Use map for them, or leave them out of the casters.");
+    const bool cuts = entry.technique->cutsByTextures();
+    const unsigned solid = cuts ? casters.drawnCutouts : casters.cutouts;
+    if (solid > 0)
+        report("casters with clear parts cast as if they were solid: " + std::to_string(solid) + ", the first in '" +
+               (cuts ? casters.drawnCutoutNode : casters.cutoutNode) +
+               "'. Use map for them, or leave them out of the casters.");
 }
 
 bool hasCasters(const EnlistedTechnique& entry, const Casters& casters) {
