@@ -85,3 +85,23 @@ TEST(AutoCutout, TakesTheMapInTheFrameInWhichTheTestIsThere) {
     camera.frame();
     EXPECT_TRUE(town.isMap()) << town.chosen() << " in the frame in which the test is there";
 }
+
+TEST(AutoCutout, HasRaysAmongItsCandidatesWhereATextureTellsWhatIsClear) {
+    const auto obstacleOf = [](const Town& town, const std::string& spec) {
+        const auto candidates = town.technique->lastDecision().front().candidates;
+        const auto found = std::find_if(candidates.begin(), candidates.end(),
+                                        [&](const auto& each) { return each.spec.rfind(spec, 0) == 0; });
+        return found == candidates.end() ? "no such candidate" : found->obstacle;
+    };
+    for (const bool byVertex : {false, true}) {
+        Town town;
+        osg::Geometry& board = *town.board->getDrawable(0)->asGeometry();
+        const osg::ref_ptr<osg::Vec4Array> colors = new osg::Vec4Array(4);
+        for (unsigned i = 0; i < 4; ++i) (*colors)[i] = osg::Vec4(1.0f, 1.0f, 1.0f, i < 2 ? 1.0f : 0.0f);
+        if (byVertex) board.setColorArray(colors, osg::Array::BIND_PER_VERTEX);
+        if (byVertex) board.getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
+        test::render(town.scene.root, view());
+        EXPECT_EQ(obstacleOf(town, "traced").empty(), !byVertex);
+        EXPECT_EQ(obstacleOf(town, "volume"), "casters have clear parts");
+    }
+}

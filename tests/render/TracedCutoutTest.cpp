@@ -47,7 +47,7 @@ osg::ref_ptr<osg::Texture2D> textureOf(osg::Image* image, osg::Texture::FilterMo
 }
 
 /// A board 5 above a ground, from x = -2 to 2; s goes from -1 to 2 along it. The sun stands at 45° over +x, so that the shadow
-/// lies from x = -7 to -3, beside the board. A ball far off is a body of its own, so that rays go through a tree of two levels.
+/// lies from x = -7 to -3, beside the board. A solid plate casts up to x = -7.5. A ball far off is a body of its own, so that rays go through a tree of two levels.
 struct Board {
     explicit Board(osg::Texture2D* texture, gnomon::ShadowTechnique* with = new TracedShadowTechnique)
         : technique(with) {
@@ -74,7 +74,7 @@ struct Board {
             const double pixel = 16.0 / view.width, east = (x + 0.5) * pixel - 8.0;
             const auto shadowed = [&](double ground) {
                 const double s = (ground + 5.0) * 0.75 + 0.5;
-                return s >= -1.0 && s < 2.0 && solid(s);
+                return ground < -7.5 || (s >= -1.0 && s < 2.0 && solid(s));
             };
             if (east > -2.5 || shadowed(east - 0.1 * pixel) != shadowed(east + 0.1 * pixel)) continue;
             found += (shown.at(x, view.height / 2) == test::grey(test::shadowedGround)) != shadowed(east);
@@ -90,7 +90,8 @@ struct Board {
     }
 
     const test::View view = test::fromAbove(8.0, 200);
-    test::Scene scene = test::groundScene({test::sphere({6.0, 6.0, 1.0}, 0.9, 24)}, 9.0);
+    test::Scene scene = test::groundScene(
+        {test::moved(test::square(0.5, 11.0), {3.0, 0.0, 0.0}), test::sphere({6.0, 6.0, 1.0}, 0.9, 24)}, 9.0);
     osg::ref_ptr<osg::Geometry> geometry = osg::createTexturedQuadGeometry(
         osg::Vec3(-2.0f, -1.0f, 0.0f), osg::Vec3(4.0f, 0.0f, 0.0f), osg::Vec3(0.0f, 2.0f, 0.0f));
     osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(osg::Matrixd::translate(0.0, 0.0, 5.0));
@@ -143,11 +144,11 @@ TEST(TracedCutout, AClampedTextureMixesHalfTheBorderIn) {
     const std::vector<int> edge = row(osg::Texture::CLAMP_TO_EDGE);
     EXPECT_EQ(nearest.wrong([&](double s) { return alphaAt(edge, int(std::floor(4.0 * s))) > reference; }), 0);
     const osg::ref_ptr<osg::Texture2D> texture = textureOf(rowOf(stripes), osg::Texture::LINEAR, osg::Texture::CLAMP);
-    texture->setBorderColor(osg::Vec4d(0.0, 0.0, 0.0, 0.1));
+    texture->setBorderColor(osg::Vec4d(0.0, 0.0, 0.0, 0.4));
     Board linear(texture);
     EXPECT_EQ(linear.wrong([&](double s) {
         const double at = 4.0 * std::clamp(s, 0.0, 1.0) - 0.5, share = at - std::floor(at);
-        const auto alpha = [&](int i) { return i < 0 || i > 3 ? 0.1 : stripes[std::size_t(i)] / 255.0; };
+        const auto alpha = [&](int i) { return i < 0 || i > 3 ? 0.4 : stripes[std::size_t(i)] / 255.0; };
         return (1.0 - share) * alpha(int(std::floor(at))) + share * alpha(int(std::floor(at)) + 1) > reference;
     }),
               0);
