@@ -29,6 +29,8 @@ public:
     /// Whether polygon modes let no side of a surface be filled: lines and points block no ray.
     static bool isUnfilled(const osg::NodePath& path, const osg::Drawable& drawable);
 
+    /// Which alphas are there.
+    const osg::AlphaFunc& test() const { return *_test; }
     /// Whether the surface is there. @param texcoord  of unit 0.
     bool keeps(const osg::Vec2d& texcoord) const;
 

@@ -6,6 +6,7 @@
 #include <gnomon/HeadlessContext.h>
 #include <gnomon/ShadowTruth.h>
 
+#include <osg/AlphaFunc>
 #include <osg/Depth>
 #include <osgViewer/Viewer>
 
@@ -85,23 +86,26 @@ private:
     osgViewer::Viewer _viewer;
 };
 
-/// Lets what blends leave no depth.
-class NoBlendedDepths : public osg::NodeVisitor {
+/// Lets what blends leave its depth where it is there, as rays see it, and nowhere else.
+class BlendedDepths : public osg::NodeVisitor {
 public:
-    NoBlendedDepths() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+    BlendedDepths() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
     void apply(osg::Drawable& drawable) override {
-        if (Cutout::blended(getNodePath(), drawable))
-            drawable.getOrCreateStateSet()->setAttributeAndModes(
-                new osg::Depth(osg::Depth::LESS, 0.0, 1.0, false),
-                osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE | osg::StateAttribute::PROTECTED);
+        const std::optional<Cutout> cutout = Cutout::blended(getNodePath(), drawable);
+        if (!cutout) return;
+        constexpr unsigned forced =
+            osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE | osg::StateAttribute::PROTECTED;
+        osg::StateSet& state = *drawable.getOrCreateStateSet();
+        state.setAttributeAndModes(new osg::AlphaFunc(cutout->test()), forced);
+        state.setAttributeAndModes(new osg::Depth(osg::Depth::LESS), forced);
     }
 };
 
-osg::ref_ptr<osg::Node> withoutBlendedDepths(const osg::Node& scene) {
+osg::ref_ptr<osg::Node> withBlendedDepths(const osg::Node& scene) {
     using C = osg::CopyOp;
     const osg::ref_ptr<osg::Node> copy = osg::clone(
         &scene, C(C::DEEP_COPY_NODES | C::DEEP_COPY_DRAWABLES | C::DEEP_COPY_STATESETS | C::DEEP_COPY_USERDATA));
-    NoBlendedDepths visitor;
+    BlendedDepths visitor;
     copy->accept(visitor);
     return copy;
 }
@@ -201,8 +205,9 @@ SceneTriangles without(const SceneTriangles& all, const osg::Node& node) {
 
 struct SceneTruth::Parts {
     Parts(osg::Node& node, Clear clear)
-        : scene(clear == Clear::PASSES ? withoutBlendedDepths(node) : osg::ref_ptr<osg::Node>(&node)),
-          triangles(sceneTriangles(node, clear)),
+        : triangles(sceneTriangles(node, clear)),
+          scene(clear == Clear::PASSES && triangles.hasCutouts() ? withBlendedDepths(node)
+                                                                 : osg::ref_ptr<osg::Node>(&node)),
           origin(middleOf(triangles)),
           tree(treeOf(triangles, origin)) {}
 
@@ -218,9 +223,9 @@ struct SceneTruth::Parts {
         return {depthCamera->depth(camera, true), depthCamera->depth(camera, false)};
     }
 
+    const SceneTriangles triangles;
     const osg::ref_ptr<osg::Node> scene;
     std::unique_ptr<DepthCamera> depthCamera; ///< of the last picture's size.
-    const SceneTriangles triangles;
     const osg::Vec3d origin;
     const std::unique_ptr<RayScene> tree;
 };

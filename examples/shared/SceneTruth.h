@@ -14,7 +14,7 @@
 namespace gnomon::examples {
 
 /// What is true of a scene: rays at its triangles, each object (a drawable under one way down to it) with an id, and
-/// what OpenGL draws where. Alpha-tested texels are not there: they neither are seen nor block.
+/// what OpenGL draws where. Texels that fail an alpha test are not there: they neither are seen nor block.
 ///
 /// Cost    making it: a tree over the triangles, about 1 µs each; maps(): 34 rays a pixel, and two small frames.
 /// Needs   a HeadlessContext of its own, which it makes.

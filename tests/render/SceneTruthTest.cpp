@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <osg/AlphaFunc>
 #include <osg/Camera>
+#include <osg/Depth>
 #include <osg/Geometry>
 #include <osg/MatrixTransform>
 #include <osg/Texture2D>
@@ -157,6 +158,22 @@ TEST(SceneTruth, TexelsThatFailTheAlphaTestNeitherAreSeenNorBlock) {
                 ASSERT_EQ(maps.litCentre.at(x, 80) == 0, dark) << x << (tested ? " tested" : "");
             }
         }
+}
+
+TEST(SceneTruth, TexelsThatBlendWithLessThanAHalfNeitherAreSeenNorBlockIfAsked) {
+    const osg::ref_ptr<osg::Group> scene = new osg::Group;
+    scene->addChild(test::node(test::square(4.0)));
+    const osg::ref_ptr<osg::Node> blended = fence(false, osg::Texture::NEAREST);
+    blended->getOrCreateStateSet()->setMode(GL_BLEND, osg::StateAttribute::ON);
+    blended->getOrCreateStateSet()->setAttribute(new osg::Depth(osg::Depth::LESS, 0.0, 1.0, false)); // as leaves may
+    scene->addChild(blended);
+    const SceneCamera camera = cameraOf(test::fromAbove(4.0, 160));
+    const osg::Vec4d sun(2.0, 0.0, 2.0, 0.0);
+    const TruthMaps passing = SceneTruth(*scene, Clear::PASSES).maps(camera, sun);
+    EXPECT_EQ(count(passing.receiver, 2), 20 * 40) << "of stripes, as above";
+    EXPECT_EQ(count(passing.blocker, 2), 20 * 40);
+    EXPECT_GT(count(passing.drawn, 2), 19 * 40) << "as rays see it, though it leaves no depth";
+    EXPECT_EQ(count(SceneTruth(*scene, Clear::HIDES).maps(camera, sun).receiver, 2), 40 * 40);
 }
 
 TEST(SceneTruth, AnAlphaTestAboveTheSurfaceRulesAsOverridesSay) {

@@ -67,7 +67,9 @@ metrics::Visibility raysOf(const metrics::Mask& lit) {
 }
 
 Yardstick::Yardstick(const ChartScene& scene, bool withDisc, osg::Node* seen)
-    : _scene(scene), _truth(seen ? *seen : *scene.content), _maps(_truth.maps(scene.camera, scene.light)) {
+    : _scene(scene),
+      _truth(seen ? *seen : *scene.content, seen ? Clear::HIDES : Clear::PASSES),
+      _maps(_truth.maps(scene.camera, scene.light)) {
     if (withDisc && scene.light.w() == 0.0) _maps.litByDisc = _truth.litByDisc(scene.camera, scene.light);
     if (!scene.round.empty()) _maps.smoothLight = smoothLight(scene, _truth, seen ? *seen : *scene.content);
     const metrics::Picture measured(scene.camera.width, scene.camera.height, 1.0);

@@ -18,7 +18,7 @@ metrics::Visibility raysOf(const metrics::Mask& lit);
 class Yardstick {
 public:
     /// @param withDisc  the truth of the sun's disc too; a lamp has none.
-    /// @param seen      what rays see; null: the scene's content.
+    /// @param seen      what rays see; null: the scene's content, without glass and where it blends with an alpha below a half.
     /// @throws see SceneTruth.
     Yardstick(const ChartScene& scene, bool withDisc, osg::Node* seen = nullptr);
 
