@@ -270,9 +270,10 @@ private:
         map.map.filter = quality.filter;
         map.map.edges = quality.edges;
         map.map.cascades = cascades;
-        // Dark pixels along the facets of smooth bodies; and light along the foot of what stands on a ground that hides it.
+        // Dark pixels along the facets of smooth bodies; and light along the foot of what stands on a ground that hides it:
+        // among leaves that is less than the rays of a garden cost, three times as long as its maps.
         const bool darkens = quality.edges == Map::SMOOTH && quality.filter == Map::BILINEAR;
-        map.flawed = (_smooth && darkens) || forecast.touchesFlat;
+        map.flawed = (_smooth && darkens) || (forecast.touchesFlat && _shadow.casters.cutouts == 0);
         const double wish = MapSettings(map.map).widestTexel;
         const int texels = texelsFor(forecast.texels / wish, std::min(size, forecast.most), 0);
         map.error = edges.empty() ? mapError(quality.edge, forecast.texels / texels)
