@@ -124,6 +124,46 @@ TEST(MapStability, ATowerOfTwoHundredMetresHalfAKilometreUpTheSunCastsIntoAViewT
     }
 }
 
+/// Pixels that a picture and another one, taken so many pixels further to the right and up, have otherwise. What is at the sides of
+/// either does not count: its neighbours are not seen.
+int changedAside(const Picture& before, const Picture& after, int right, int up) {
+    int changed = 0;
+    for (int y = 1; y < after.height - up - 1; ++y)
+        for (int x = 1; x < after.width - right - 1; ++x) changed += after.at(x, y) != before.at(x + right, y + up);
+    return changed;
+}
+
+// A camera from above that goes on by whole pixels sees every pixel again in the next frame. Hard edges are stairs of texels, and stay
+// as they are only where texels do: a map that no longer holds the view is moved by whole texels.
+TEST(MapStability, AWalkPastTheMarginOfAMapLeavesHardEdgesWhereTheyAre) {
+    constexpr int right = 5, up = 2, frames = 60; // more than a view
+    std::vector<Mesh> posts;
+    for (int i = 0; i < 400; ++i)
+        posts.push_back(
+            house({1.3 * (i % 20) - 6.0, 1.1 * (i / 20) - 6.0}, {0.2, 0.1, 0.4 + 0.01 * (i % 7)}, 17.0 * i));
+    Scene scene = groundScene(posts, 60.0, sunAt(33.0, 50.0));
+    const osg::ref_ptr<ShadowMapTechnique> technique = new ShadowMapTechnique;
+    scene.addShadow(technique);
+    View view = fromAbove(4.0, 256);
+    Camera camera(scene.root, view);
+    Picture before = camera.frame();
+    int changed = 0, changedAtOnce = 0;
+    const unsigned mapsBefore = technique->passes();
+    for (int frame = 0; frame < frames; ++frame) {
+        view.view.postMultTranslate(osg::Vec3d(-right, -up, 0.0) / 32.0); // a pixel is a 32nd
+        camera.setView(view);
+        const Picture after = camera.frame();
+        const int now = changedAside(before, after, right, up);
+        changed += now;
+        changedAtOnce = std::max(changedAtOnce, now);
+        before = after;
+    }
+    const unsigned maps = technique->passes() - mapsBefore;
+    std::cout << maps << " maps, " << changed << " pixels in " << frames << " frames, " << changedAtOnce << " in one\n";
+    EXPECT_GE(maps, 8u);
+    EXPECT_LE(changedAtOnce, 5); // of 60,000: floats round otherwise where the edge of a texel meets a pixel's middle
+}
+
 // What is kept of maps goes by the frames before; where nothing moves any more, nothing is.
 TEST(MapStability, APictureOfAStillSceneIsTheSameWhateverWasDrawnBefore) {
     for (const TracedCase& given : {test::townOfHouses(), test::longStreet(45.0)}) {
