@@ -32,6 +32,9 @@ void main() {
 #ifdef EXTRUDE
     vec3 away = light.w * gl_Vertex.xyz - light.xyz;
     float length = gl_Vertex.w < 0.0 ? endless : gl_Vertex.w;
+#ifdef CUTS
+    length *= 1.5; // volumes end close below all receivers, and an edge needs its side drawn in the pixels about it
+#endif
     vec4 place = length < 0.0 ? vec4(away, 0.0) : vec4(gl_Vertex.xyz + length * away, 1.0);
     gl_Position = clipFromVertex * place;
 #elif defined(OFFSET)
