@@ -44,6 +44,14 @@ osg::ref_ptr<osg::Texture2D> stripes() {
     return texture;
 }
 
+/// Of no clear parts.
+osg::ref_ptr<osg::Image> opaqueImage() {
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(int(alphas.size()), 1, 1, GL_RGBA, GL_UNSIGNED_BYTE);
+    std::fill_n(image->data(), image->getTotalSizeInBytes(), static_cast<unsigned char>(255));
+    return image;
+}
+
 double alphaAt(double x) {
     const double along = x / 4.0 - std::floor(x / 4.0);
     return alphas[std::size_t(along * 4.0)] / 255.0;
@@ -243,4 +251,52 @@ TEST_P(BlendedLeaves, BehindOthersShowThroughThemAsTheyWere) {
     }
     EXPECT_EQ(wrong, 0);
     EXPECT_GT(shadowed, 100);
+}
+
+/// As osg::State has it: a texture above that overrides the leaves' own.
+TEST_P(BlendedLeaves, AreClearByATextureThatOverridesTheirs) {
+    const Dressed overridden = [](Scene& scene, osg::Geode& sheet) {
+        static_cast<osg::Texture2D&>(*sheet.getStateSet()->getTextureAttribute(0, osg::StateAttribute::TEXTURE))
+            .setImage(opaqueImage());
+        const osg::ref_ptr<osg::Group> above = new osg::Group;
+        above->getOrCreateStateSet()->setTextureAttributeAndModes(
+            0, stripes(), osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE);
+        scene.content->removeChild(&sheet);
+        above->addChild(&sheet);
+        scene.content->addChild(above);
+    };
+    Leafy leafy = withShadow(relit, overridden);
+    EXPECT_TRUE(isRelit(render(leafy.scene.root, fromAbove(half, size)), overridden));
+}
+
+/// Of one alpha then, as glass is: what is behind shines through.
+TEST_P(BlendedLeaves, WhoseTextureIsOffReceiveAsWithoutIt) {
+    const Dressed glass = [](Scene&, osg::Geode& sheet) {
+        sheet.getStateSet()->setTextureMode(0, GL_TEXTURE_2D, osg::StateAttribute::OFF);
+        const osg::ref_ptr<osg::Material> material = new osg::Material;
+        material->setDiffuse(osg::Material::FRONT_AND_BACK, {0.8f, 0.8f, 0.8f, 0.6f});
+        sheet.getStateSet()->setAttributeAndModes(material);
+    };
+    Leafy leafy = withShadow(relit, glass), lit = build(glass), dark = build(glass);
+    reflect(*dark.ground, 0.0f);
+    const Picture seen = render(leafy.scene.root, fromAbove(half, size)),
+                  expected[] = {render(lit.scene.root, fromAbove(half, size)),
+                                render(dark.scene.root, fromAbove(half, size))};
+    int wrong = 0;
+    for (const Place& place : places()) wrong += seen.pixels[place.at] != expected[place.onGround].pixels[place.at];
+    EXPECT_EQ(wrong, 0);
+}
+
+/// Both images have been changed as often as the other: their counts are the same.
+TEST_P(BlendedLeaves, WhoseTextureGetsAnotherImageAreClearByThat) {
+    Leafy leafy = withShadow(relit);
+    auto& texture =
+        static_cast<osg::Texture2D&>(*leafy.sheet->getStateSet()->getTextureAttribute(0, osg::StateAttribute::TEXTURE));
+    const osg::ref_ptr<osg::Image> striped = texture.getImage(), opaque = opaqueImage();
+    ASSERT_EQ(striped->getModifiedCount(), opaque->getModifiedCount());
+    texture.setImage(opaque);
+    Camera camera(leafy.scene.root, fromAbove(half, size));
+    camera.frame();
+    texture.setImage(striped);
+    EXPECT_TRUE(isRelit(camera.frame(), nothing));
 }

@@ -55,13 +55,33 @@ unsigned textureUnits(const osgUtil::StateGraph* graph) {
     return static_cast<unsigned>(units);
 }
 
-/// The innermost one; null if there is none.
-template <class Attribute>
-const Attribute* textureAttribute(const osgUtil::StateGraph* graph, unsigned unit, A::Type type) {
-    for (; graph; graph = graph->_parent)
-        if (const auto* found = graph->getStateSet() ? graph->getStateSet()->getTextureAttribute(unit, type) : nullptr)
-            return dynamic_cast<const Attribute*>(found);
-    return nullptr;
+/// An attribute of a texture unit, as osg::State resolves it.
+struct UnitAttribute {
+    const osg::StateAttribute* attribute = nullptr; ///< null: no state set gives one.
+    bool overrides = false;
+};
+UnitAttribute unitAttribute(const osgUtil::StateGraph* graph, unsigned unit, A::Type type) {
+    if (!graph) return {};
+    const UnitAttribute above = unitAttribute(graph->_parent, unit, type);
+    const osg::StateSet* set = graph->getStateSet();
+    const auto* given = set ? set->getTextureAttributePair(unit, type) : nullptr;
+    if (!given || (above.overrides && !(given->second & A::PROTECTED))) return above;
+    return {given->first, (given->second & A::OVERRIDE) != 0};
+}
+
+/// The mode of a texture unit, as osg::State resolves it.
+unsigned unitMode(const osgUtil::StateGraph* graph, unsigned unit, GLenum mode) {
+    if (!graph) return A::OFF;
+    const unsigned above = unitMode(graph->_parent, unit, mode);
+    const osg::StateSet* set = graph->getStateSet();
+    const unsigned given = set ? set->getTextureMode(unit, mode) : unsigned(A::INHERIT);
+    return (given & A::INHERIT) || ((above & A::OVERRIDE) && !(given & A::PROTECTED)) ? above : given;
+}
+
+/// The texture that fixed function reads in a unit; null: none.
+const osg::Texture* textureIn(const osgUtil::StateGraph* graph, unsigned unit) {
+    const auto* texture = dynamic_cast<const osg::Texture*>(unitAttribute(graph, unit, A::TEXTURE).attribute);
+    return texture && (unitMode(graph, unit, texture->getTextureTarget()) & A::ON) ? texture : nullptr;
 }
 
 /// The least and the largest alpha of something.
@@ -111,10 +131,11 @@ public:
     Alphas of(const osg::Object& owner, const Data* data) {
         const auto known = _known.find(&owner);
         const bool valid = known != _known.end() && known->second.owner.valid();
-        if (!data || (valid && known->second.modified == data->getModifiedCount()))
-            return valid ? known->second.alphas : Alphas();
+        const bool isSame =
+            valid && data && known->second.data.get() == data && known->second.modified == data->getModifiedCount();
+        if (!data || isSame) return valid ? known->second.alphas : Alphas();
         if (_known.size() >= _mostWithGone) letGo();
-        return (_known[&owner] = {&owner, data->getModifiedCount(), alphasIn(*data)}).alphas;
+        return (_known[&owner] = {&owner, data, data->getModifiedCount(), alphasIn(*data)}).alphas;
     }
 
 protected:
@@ -129,7 +150,7 @@ private:
     }
 
     struct Entry {
-        osg::observer_ptr<const osg::Object> owner;
+        osg::observer_ptr<const osg::Object> owner, data;
         unsigned modified;
         Alphas alphas;
     };
@@ -154,8 +175,8 @@ Alphas alphasOfTextures(const osgUtil::StateGraph* graph, KnownAlphas& known) {
     if (resolvedAttribute(graph, A::PROGRAM)) return any;
     Alphas result;
     for (unsigned unit = 0, end = textureUnits(graph); unit < end; ++unit) {
-        const auto* texture = textureAttribute<osg::Texture>(graph, unit, A::TEXTURE);
-        const auto* environment = textureAttribute<osg::StateAttribute>(graph, unit, A::TEXENV);
+        const osg::Texture* texture = textureIn(graph, unit);
+        const osg::StateAttribute* environment = unitAttribute(graph, unit, A::TEXENV).attribute;
         const auto* plain = dynamic_cast<const osg::TexEnv*>(environment); // the other combines
         if (!texture || (plain && plain->getMode() == osg::TexEnv::DECAL)) continue;
         if (environment && !(plain && plain->getMode() == osg::TexEnv::MODULATE)) return any;
