@@ -10,6 +10,7 @@
 #include <osg/Depth>
 #include <osg/Image>
 #include <osg/Material>
+#include <osg/Stencil>
 #include <osg/Texture2D>
 
 #include <array>
@@ -299,4 +300,41 @@ TEST_P(BlendedLeaves, WhoseTextureGetsAnotherImageAreClearByThat) {
     camera.frame();
     texture.setImage(striped);
     EXPECT_TRUE(isRelit(camera.frame(), nothing));
+}
+
+/// A test that keeps them from the frame: nothing is darkened where they would be.
+TEST_P(BlendedLeaves, ThatTheirOwnStencilTestHidesLeaveNoShadow) {
+    const Dressed hidden = [](Scene&, osg::Geode& sheet) {
+        const osg::ref_ptr<osg::Stencil> never = new osg::Stencil;
+        never->setFunction(osg::Stencil::EQUAL, 1, 1);
+        sheet.getStateSet()->setAttributeAndModes(never);
+    };
+    for (const auto composite : {relit, blended}) {
+        Leafy leafy = withShadow(composite, hidden);
+        const Picture seen = render(leafy.scene.root, fromAbove(half, size));
+        const double dark = composite == relit ? shadowedGround : litGround / 2;
+        int wrong = 0;
+        for (const Place& place : places())
+            wrong += std::abs(double(seen.pixels[place.at] & 0xff) - (place.onGround ? dark : litGround)) > 1.0;
+        EXPECT_EQ(wrong, 0) << composite;
+    }
+}
+
+/// A user interface that tests no depth, in the bin after theirs: nothing is darkened there, and nothing drawn over it.
+TEST_P(BlendedLeaves, LieBelowWhatTheNextBinDraws) {
+    const Dressed covered = [](Scene& scene, osg::Geode&) {
+        const osg::ref_ptr<osg::Geode> panel = node(quad({-half, -half, 0.0}, {half, 0, 0}, {0, 2 * half, 0}), "panel");
+        panel->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
+        panel->getStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
+        panel->getStateSet()->setRenderBinDetails(11, "RenderBin");
+        scene.root->addChild(panel);
+    };
+    for (const auto composite : {relit, blended}) {
+        Leafy leafy = withShadow(composite, covered);
+        const Picture seen = render(leafy.scene.root, fromAbove(half, size));
+        int wrong = 0;
+        for (int row = 0; row < size; ++row)
+            for (int column = 0; column < size / 2; ++column) wrong += (seen.at(column, row) & 0xffffff) != 0xffffff;
+        EXPECT_EQ(wrong, 0) << composite;
+    }
 }

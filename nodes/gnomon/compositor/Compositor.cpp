@@ -37,6 +37,12 @@ constexpr const char* backgroundNotKnown =
     "an opaque object in this view blends over colours that the camera does not clear, in a multisampled framebuffer "
     "object, so the shadow blends instead of relighting. Draw that object in a bin above 8, or set BLEND "
     "(composite=blend).";
+constexpr const char* testsStencil =
+    "an opaque object in this view has a stencil test of its own, so the shadow blends "
+    "instead of relighting. Draw that object in a bin above 8, or set BLEND (composite=blend).";
+constexpr const char* testsStencilLate = "an object in a bin above 8 has a stencil test of its own, so the shadow on "
+                                         "all that is drawn there blends instead of "
+                                         "relighting. Set BLEND (composite=blend).";
 constexpr const char* leavesNotSaved = "what is clear in parts is drawn above bin 8 in a multisampled framebuffer "
                                        "object, so the shadow on all that is drawn "
                                        "there blends instead of relighting. Draw it in a bin below 8 by an "
@@ -106,9 +112,7 @@ void Compositor::relightAny(const Jobs& jobs, std::map<float, Jobs>& blended) {
     const bool fading = areFading(jobs);
     if (!fading && composeDirectly(jobs)) return;
     if (isModeOn(_draw.leaves, GL_STENCIL_TEST))
-        blendInstead(jobs, blended,
-                     "an opaque object in this view has a stencil test of its own, so the shadow blends "
-                     "instead of relighting. Draw that object in a bin above 8, or set BLEND (composite=blend).");
+        blendInstead(jobs, blended, jobs.front()->hidingOnly ? testsStencilLate : testsStencil);
     else if (!fading && !isBackgroundKnown() && readsBack(_draw.leaves))
         blendInstead(jobs, blended, _draw.since ? leavesNotSaved : backgroundNotKnown);
     else if (fading)

@@ -25,7 +25,8 @@
 namespace gnomon {
 namespace {
 
-constexpr int lateNumber = 1 << 30; // below another bin, after all others there
+constexpr int lateNumber = 1 << 30;     // below another bin, after all others there
+constexpr int earlyNumber = -(1 << 30); // before them
 constexpr const char* binName = "gnomon::ComposeBin";
 constexpr const char* noFrameForCut = "in interlaced stereo, and where OpenGL makes no framebuffer objects, what is "
                                       "drawn in a bin above 8 receives no shadow if "
@@ -60,7 +61,7 @@ void drawDepths(const CompositorStage& draw, const ScreenRect& bounds, const Lea
 
 bool mayStencilHide(const DrawnLeaf& entry) {
     const osgUtil::StateGraph* graph = entry.leaf->_parent;
-    if (!isOn(graph, GL_STENCIL_TEST) || !writesDepth(graph)) return false;
+    if (!isOn(graph, GL_STENCIL_TEST)) return false;
     const osg::StateAttribute* test = resolvedAttribute(graph, osg::StateAttribute::STENCIL);
     const auto* oneSided = dynamic_cast<const osg::Stencil*>(test); // the other has two tests
     return oneSided ? oneSided->getFunction() != osg::Stencil::ALWAYS : test != nullptr;
@@ -69,14 +70,20 @@ bool mayStencilHide(const DrawnLeaf& entry) {
 } // namespace
 
 ComposeBin& ComposeBin::after(osgUtil::RenderBin& last) {
-    const bool drawsBinsBelow = typeid(last) == typeid(osgUtil::RenderBin) || dynamic_cast<ComposeBin*>(&last);
-    const bool below = drawsBinsBelow && !last.getStateSet();
-    osgUtil::RenderBin& parent = below ? last : *last.getStage();
-    const int next = &last == &parent ? 0 : last.getBinNum() + 1; // the stage's bin 0 is drawn after its own leaves
-    for (int number = below ? lateNumber : next;; ++number) {
-        osgUtil::RenderBin* bin = parent.find_or_insert(number, binName);
-        if (typeid(*bin) == typeid(ComposeBin)) return static_cast<ComposeBin&>(*bin);
-    }
+    const auto isOwn = [](osgUtil::RenderBin& bin) { return typeid(bin) == typeid(ComposeBin); };
+    const auto firstIn = [&isOwn](osgUtil::RenderBin& parent, int number) -> ComposeBin& {
+        for (;; ++number)
+            if (osgUtil::RenderBin* bin = parent.find_or_insert(number, binName); isOwn(*bin))
+                return static_cast<ComposeBin&>(*bin);
+    };
+    const auto isPlain = [](osgUtil::RenderBin& bin) {
+        return typeid(bin) == typeid(osgUtil::RenderBin) && !bin.getStateSet();
+    };
+    if (isPlain(last) || (dynamic_cast<ComposeBin*>(&last) && !last.getStateSet())) return firstIn(last, lateNumber);
+    osgUtil::RenderBin& stage = *last.getStage();
+    const int next = &last == &stage ? 0 : last.getBinNum() + 1; // the stage's bin 0 is drawn after its own leaves
+    osgUtil::RenderBin* beside = stage.find_or_insert(next, binName);
+    return isPlain(*beside) ? firstIn(*beside, earlyNumber) : firstIn(stage, next);
 }
 
 void ComposeBin::reset() {
@@ -115,13 +122,15 @@ void ComposeBin::handOn(std::vector<ShadowJob>& jobs, ComposeBin& to, int below)
     to._options = _options;
     to._holdsFrame = _holdsFrame;
     to._sharesStencil = _sharesStencil;
-    to._below = below;
+    to._below = to.getParent() == getStage() ? to.getBinNum() : below; // others may be drawn in between
     jobs.clear();
 }
 
 void ComposeBin::saveFor(ComposeBin& to, const std::vector<DrawnLeaf>& hiding) {
     _saves = &keptBy<SavedFrame>(*getStage());
     to._since = DrawnSince{_saves, getBinNum(), hiding};
+    std::vector<DrawnLeaf>& known = to._since->hiding; // their own test finds nothing in a framebuffer of the kit's own
+    known.erase(std::remove_if(known.begin(), known.end(), mayStencilHide), known.end());
 }
 
 void ComposeBin::releaseGLObjects(osg::State* state) const {
@@ -210,7 +219,10 @@ bool ComposeBin::findDepths(const CompositorStage& draw, const CompositorTarget&
     }
     if (!target.lacksDepth()) return true;
     drawDepths(draw, bounds, moved);
-    if (std::any_of(draw.leaves.begin(), draw.leaves.end(), mayStencilHide))
+    const auto mayHide = [](const DrawnLeaf& entry) {
+        return writesDepth(entry.leaf->_parent) && mayStencilHide(entry);
+    };
+    if (std::any_of(draw.leaves.begin(), draw.leaves.end(), mayHide))
         reportAll("OpenGL hands over no depths of this framebuffer, so an object that its own stencil test hides takes "
                   "shadows away from what is behind it. Draw that object in a bin above 8.");
     return true;

@@ -33,7 +33,8 @@ public:
     const char* libraryName() const override { return "gnomon"; }
     const char* className() const override { return "ComposeBin"; }
 
-    /// The bin that composes what the bin `last` of the stage draws, right after it: a bin below it, or else beside it.
+    /// The bin that composes what the bin `last` of the stage draws, right after it: a bin below it, or else beside it, or below
+    /// the next. Only if that one has a state set of its own it is drawn in between, as is what follows it without a gap.
     static ComposeBin& after(osgUtil::RenderBin& last);
 
     void reset() override;
