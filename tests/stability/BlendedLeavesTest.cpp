@@ -10,6 +10,7 @@
 #include <osg/Depth>
 #include <osg/Image>
 #include <osg/Material>
+#include <osg/Scissor>
 #include <osg/Stencil>
 #include <osg/Texture2D>
 
@@ -337,4 +338,17 @@ TEST_P(BlendedLeaves, LieBelowWhatTheNextBinDraws) {
             for (int column = 0; column < size / 2; ++column) wrong += (seen.at(column, row) & 0xffffff) != 0xffffff;
         EXPECT_EQ(wrong, 0) << composite;
     }
+}
+
+/// OSG then puts the scissor's box, once nothing is cut any more, to another place than the view.
+TEST_P(BlendedLeaves, BesideWhatHasAScissorShowWhatIsBehindAsItIsNow) {
+    const Dressed cut = [](Scene& scene, osg::Geode&) {
+        scene.content->getChild(1)->getOrCreateStateSet()->setAttributeAndModes(new osg::Scissor(0, 0, size, size));
+    };
+    Leafy leafy = withShadow(relit, cut);
+    leafy.ground->setNodeMask(0);
+    Camera camera(leafy.scene.root, fromAbove(half, size));
+    camera.frame();
+    leafy.ground->setNodeMask(~0u);
+    for (int frame = 2; frame < 4; ++frame) EXPECT_TRUE(isRelit(camera.frame(), cut)) << frame;
 }

@@ -13,9 +13,12 @@ SavedFrame::SavedFrame(const SavedFrame& other, const osg::CopyOp& copyOp)
     : osg::Object(other, copyOp), _program(quadProgram("gnomon depths", "", shaders::depths_frag)) {}
 
 void SavedFrame::save(osg::State& state, const osg::Viewport& viewport) {
+    const PixelRect all = pixelsOf(viewport);
+    glScissor(all.x, all.y, all.width, all.height); // osg::State's default need not hold them
+    state.haveAppliedAttribute(osg::StateAttribute::SCISSOR);
     _hasColors = _colors.save(state, viewport);
     _depths.drop(state);
-    _depths.copy(state, pixelsOf(viewport));
+    _depths.copy(state, all);
     state.apply();
 }
 
