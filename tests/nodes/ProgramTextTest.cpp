@@ -143,6 +143,16 @@ TEST(ProgramText, CommentsSayNothing) {
     EXPECT_FALSE(moves("// v.x += gl_InstanceID;\nvoid main() { /* gl_Position = x; */ gl_Position = ftransform(); }"));
 }
 
+TEST(ProgramText, AProjectionIsTakenByItsWholeName) {
+    const auto takes = [](const std::string& vertex) {
+        return gnomon::placesOf(*programOf(vertex, "")).takesProjection;
+    };
+    EXPECT_TRUE(takes("void main() { gl_Position = gl_ProjectionMatrix * (gl_ModelViewMatrix * gl_Vertex + off); }"));
+    EXPECT_FALSE(takes("// not gl_ProjectionMatrix\nvoid main() { gl_Position = own * (gl_Vertex + off); }"));
+    EXPECT_FALSE(
+        takes("void main() { at = gl_ProjectionMatrixInverse * gl_Vertex; gl_Position = own * (gl_Vertex + off); }"));
+}
+
 TEST(ProgramText, AScreenDoorDiscardsByTheFragmentsPlaceInThePicture) {
     const auto byPixel = [](const std::string& fragment) {
         const gnomon::ProgramPlaces places = gnomon::placesOf(*programOf("", fragment));

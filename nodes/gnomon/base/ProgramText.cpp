@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstring>
+#include <iterator>
 #include <map>
 #include <set>
 #include <string>
@@ -252,10 +253,13 @@ private:
     bool _arrives = false, _discardsOtherwise = false;
 };
 
-bool takesProjection(const std::string& text) {
-    return contains(text, "ftransform") || contains(text, "gl_ModelViewProjectionMatrix") ||
-           contains(text, "gl_ProjectionMatrix") || contains(text, "osg_ModelViewProjectionMatrix") ||
-           contains(text, "osg_ProjectionMatrix");
+bool takesProjection(const Tokens& tokens) {
+    constexpr const char* names[] = {"ftransform", "gl_ModelViewProjectionMatrix", "gl_ProjectionMatrix",
+                                     "osg_ModelViewProjectionMatrix", "osg_ProjectionMatrix"};
+    const auto isGiven = [&tokens](const char* name) {
+        return std::find(tokens.begin(), tokens.end(), name) != tokens.end();
+    };
+    return std::any_of(std::begin(names), std::end(names), isGiven);
 }
 
 /// Shaders before GLSL 1.50 have no layouts: a parameter of the program says what they make.
@@ -282,7 +286,7 @@ ProgramPlaces found(const osg::Program& program, const std::string& vertex, cons
     places.discards =
         isDiscarded || std::any_of(tokens.begin(), tokens.end(), [](const auto& token) { return cuts(token); });
     const bool isFixed = vertex.empty() && others.empty(); // fragments alone are the program's
-    places.takesProjection = isFixed || takesProjection(vertex) || takesProjection(others);
+    places.takesProjection = isFixed || takesProjection(tokens) || takesProjection(tokensOf(others));
     return places;
 }
 
