@@ -89,6 +89,20 @@ osg::ref_ptr<GlProbe> addProbe(osg::Group& parent, osg::StateSet* set, int bin) 
     return probe;
 }
 
+/// Leaves that blend, clear in their lower half, over both grounds.
+osg::ref_ptr<osg::Geode> sheet() {
+    const osg::ref_ptr<osg::Geode> sheet = node(quad({-8.0, -8.0, 0.3}, {16.0, 0, 0}, {0, 16.0, 0}), "sheet");
+    osg::Geometry& geometry = *sheet->getDrawable(0)->asGeometry();
+    const osg::ref_ptr<osg::Vec4Array> colors = new osg::Vec4Array;
+    for (const osg::Vec3& vertex : *static_cast<osg::Vec3Array*>(geometry.getVertexArray()))
+        colors->push_back({1.0f, 1.0f, 1.0f, vertex.y() > 0.0f ? 1.0f : 0.0f});
+    geometry.setColorArray(colors, osg::Array::BIND_PER_VERTEX);
+    sheet->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
+    sheet->getStateSet()->setMode(GL_BLEND, osg::StateAttribute::ON);
+    sheet->getStateSet()->setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
+    return sheet;
+}
+
 /// What leaves in bins after the compositor's find, with the grounds' state set and with none, and who comes after the
 /// frame: in frames 1 and 3.
 std::vector<GlSnapshot> seen(const TwoGrounds& place, void (*state)(osg::StateSet&), const Change& addShadow) {
@@ -166,6 +180,22 @@ TEST(GlStateAfterSmoothEdges, IsThatOfAFrameWithoutGnomon) {
               "hull:edges=smooth,receiver=grounds", "volume:edges=smooth", "volume:edges=smooth,composite=blend",
               "traced:edges=smooth"}) {
             const std::vector<GlSnapshot> actual = seen(place, kind.set, [&](Scene& scene) { scene.addShadow(spec); });
+            for (std::size_t i = 0; i < expected.size(); ++i)
+                EXPECT_EQ(difference(expected[i], actual[i]), "") << kind.name << ", " << spec << ", snapshot " << i;
+        }
+    }
+}
+
+TEST(GlStateAfterLeavesThatBlend, IsThatOfAFrameWithoutGnomon) {
+    const TwoGrounds place;
+    for (const Kind& kind : {Kind{"plain", plain}, {"rich", rich}, {"program", withAProgram}, {"nothing", nothing}}) {
+        const std::vector<GlSnapshot> expected =
+            seen(place, kind.set, [](Scene& scene) { scene.root->addChild(sheet()); });
+        for (const std::string spec : {"map", "map:composite=blend", "volume", "traced:edges=smooth"}) {
+            const std::vector<GlSnapshot> actual = seen(place, kind.set, [&](Scene& scene) {
+                scene.addShadow(spec);
+                scene.root->addChild(sheet());
+            });
             for (std::size_t i = 0; i < expected.size(); ++i)
                 EXPECT_EQ(difference(expected[i], actual[i]), "") << kind.name << ", " << spec << ", snapshot " << i;
         }
