@@ -352,3 +352,56 @@ TEST_P(BlendedLeaves, BesideWhatHasAScissorShowWhatIsBehindAsItIsNow) {
     leafy.ground->setNodeMask(~0u);
     for (int frame = 2; frame < 4; ++frame) EXPECT_TRUE(isRelit(camera.frame(), cut)) << frame;
 }
+
+TEST_P(BlendedLeaves, BehindTheGroundStayHiddenUnderOthers) {
+    const Dressed another = [](Scene& scene, osg::Geode&) { scene.root->addChild(sheet(-0.25)); };
+    Leafy leafy = withShadow(relit, another);
+    EXPECT_TRUE(isRelit(render(leafy.scene.root, fromAbove(half, size)), another));
+}
+
+TEST_P(BlendedLeaves, ReceiveAgainOnceWhatHidThemIsGone) {
+    Leafy leafy = withShadow(relit);
+    const osg::ref_ptr<osg::Geode> roof = node(quad({-half, -half, 3.0}, {2 * half, 0, 0}, {0, 2 * half, 0}), "roof");
+    leafy.scene.root->addChild(roof);
+    Camera camera(leafy.scene.root, fromAbove(half, size));
+    camera.frame();
+    leafy.scene.root->removeChild(roof);
+    EXPECT_TRUE(isRelit(camera.frame(), nothing));
+}
+
+/// Smoke without light, and signs that lie over all: they are no receivers if they hide the depth of nothing.
+TEST_P(BlendedLeaves, ThatLeaveNoDepthAndAreUnlitOrTestNoneReceiveNothing) {
+    for (const GLenum off : {GL_LIGHTING, GL_DEPTH_TEST}) {
+        const Dressed change = [off](Scene& scene, osg::Geode& sheet) {
+            writeNoDepth(scene, sheet);
+            sheet.getStateSet()->setMode(off, osg::StateAttribute::OFF);
+        };
+        Leafy leafy = withShadow(relit, change);
+        const Picture seen = render(leafy.scene.root, fromAbove(half, size)), lit = picture(true, true, change),
+                      dark = picture(true, false, change);
+        int wrong = 0;
+        for (const Place& place : places())
+            wrong += seen.pixels[place.at] != (place.onGround ? dark : lit).pixels[place.at];
+        EXPECT_EQ(wrong, 0) << off;
+    }
+}
+
+/// What a test of their own clears receives nothing; one that clears less than a half leaves the half.
+TEST_P(BlendedLeaves, WithATestOfTheirOwnTakeTheFactorWhereTheyAreDrawn) {
+    for (const auto function : {osg::AlphaFunc::GREATER, osg::AlphaFunc::NOTEQUAL}) {
+        const bool few = function == osg::AlphaFunc::GREATER;
+        Leafy leafy = withShadow(blended, [&](Scene&, osg::Geode& sheet) {
+            sheet.getStateSet()->setAttributeAndModes(new osg::AlphaFunc(function, few ? 0.9f : 0.0f));
+        });
+        const Picture seen = render(leafy.scene.root, fromAbove(half, size));
+        int wrong = 0;
+        for (const Place& place : places()) {
+            const bool hides = few ? place.alpha > 0.9 : place.hides();
+            const double ground = place.onGround ? 0.5 * litGround : litGround; // the sheet's lit grey is the ground's
+            const double alpha = few && !hides ? 0.0 : place.alpha;
+            const double expected = (alpha * litGround + (1.0 - alpha) * ground) * (place.onSheet && hides ? 0.5 : 1.0);
+            wrong += std::abs(double(seen.pixels[place.at] & 0xff) - expected) > 2.0;
+        }
+        EXPECT_EQ(wrong, 0) << function;
+    }
+}
