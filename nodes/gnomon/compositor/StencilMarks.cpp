@@ -167,8 +167,10 @@ MarkedLights StencilMarks::lightsOf(const Jobs& wanted) const {
         const bool fades = _fades && job->fades();
         const bool shares = fades && (light->fading.empty() || areOnTheSame(*light->fading.front(), *job));
         if (fades && !shares)
-            job->report("another technique has smooth edges for the same light and other receivers, so these edges are "
-                        "hard. Name the same receiver for both, or for none.");
+            job->report(
+                "other receivers have smooth edges of the same light already, so these edges are hard. Name the same "
+                "receiver for all techniques of a light, or for none; what has a polygon offset or a depth range is "
+                "another.");
         (shares ? light->fading : light->hard).push_back(job);
     }
     for (; lights.size() > mostRelitLights; lights.pop_back())
