@@ -4,6 +4,7 @@
 #include <gnomon/CompositorOptions.h>
 #include <gnomon/Export.h>
 #include <gnomon/LightUniform.h>
+#include <gnomon/MatrixUniform.h>
 #include <gnomon/NamesNodes.h>
 #include <gnomon/ObservedNode.h>
 #include <gnomon/Selection.h>
@@ -87,6 +88,7 @@ struct CasterView;
 ///       CompositorOptions 15 TRUE 10000
 ///       Clipping ALL
 ///       TerminatorOffset FALSE
+///       MatrixUniforms 1 { 0 "mvp" }
 ///     }
 class GNOMON_EXPORT ShadowCasterGroup : public osg::Group, public ShowsChildren, public NamesNodes {
 public:
@@ -179,6 +181,15 @@ public:
     /// The light uniforms.
     const std::vector<LightUniform>& getLightUniforms() const { return _lightUniforms; }
 
+    /// Names a uniform by which the casters' programs project, where OpenGL's and OpenSceneGraph's matrices are not read.
+    /// ShadowMapTechnique lets such programs draw what they move or discard, with the light's matrix in the uniform.
+    /// Default: none. An unknown kind is refused with a warning.
+    void addMatrixUniform(const MatrixUniform& uniform);
+    /// Replaces the matrix uniforms.
+    void setMatrixUniforms(std::vector<MatrixUniform> uniforms);
+    /// The matrix uniforms.
+    const std::vector<MatrixUniform>& getMatrixUniforms() const { return _matrixUniforms; }
+
     /// Limits of the view's compositor. See CompositorOptions for several nodes in one view. Default: none.
     void setCompositorOptions(const CompositorOptions& options) { _options = options; }
     /// See setCompositorOptions().
@@ -214,6 +225,7 @@ private:
     std::vector<ObservedNode> _lightSources;
     std::vector<ShadowLight> _lights;
     std::vector<LightUniform> _lightUniforms;
+    std::vector<MatrixUniform> _matrixUniforms;
     CompositorOptions _options;
 
     const osg::ref_ptr<CasterTable> _table;

@@ -53,8 +53,9 @@ class ShadowMapCache;
 /// - Penumbras end at 128 texels, and at the borders of a lamp's maps.
 /// - Casters that draw themselves, or that a program moves, need bounds that hold them: what is beyond may cast nothing. Each
 ///   costs as much as in the view, in every map that changes.
-/// - A program that moves casters must take OpenGL's or OpenSceneGraph's projection, and set no depth of its own. Else they cast
-///   where their arrays stand, and diagnose() names the node.
+/// - A program that moves casters must take OpenGL's or OpenSceneGraph's projection, or one that
+///   ShadowCasterGroup::addMatrixUniform() names, and set no depth of its own. Else they cast where their arrays stand, and
+///   diagnose() names the node.
 /// - A caster that draws itself is redrawn each frame if it has no display list or is DYNAMIC. Otherwise, changes of its
 ///   place, bounds, state sets and uniforms show.
 /// - Glass casts no tinted shadow: a point of a caster is solid or clear, see ShadowCasterGroup::setOpaqueFrom().

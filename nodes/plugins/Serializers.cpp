@@ -27,17 +27,17 @@ using namespace gnomon;
 //
 // In binary files each object of the kit begins with a mark and a version. OSG's own header cannot tell it, because the
 // programs that write files do not know the kit. Text files name their properties and need no version. A property that
-// is added belongs into a new version, here 6, and `fileVersion` becomes 6:
+// is added belongs into a new version, here 7, and `fileVersion` becomes 7:
 //
 //     {
-//         UPDATE_TO_VERSION_SCOPED(6)
+//         UPDATE_TO_VERSION_SCOPED(7)
 //         ADD_BOOL_SERIALIZER(Tint, fresh->getTint());
 //     }
 namespace {
 
 /// OSG's word for the library that a version belongs to.
 constexpr const char* fileDomain = "gnomon";
-constexpr int fileVersion = 5;  ///< The version that is written.
+constexpr int fileVersion = 6;  ///< The version that is written.
 constexpr int firstVersion = 3; ///< The oldest that is read.
 constexpr const char* faultsAreGone = "the faults of earlier programs are not drawn";
 constexpr char mark[] = {'g', 'n', 'm', 'n'}; // files without it have switches, enumerators or numbers here
@@ -145,6 +145,18 @@ static void readItem(osgDB::InputStream& in, LightUniform& uniform) {
     in.readWrappedString(uniform.name);
 }
 
+static void writeItem(osgDB::OutputStream& out, const MatrixUniform& uniform) {
+    out << int(uniform.kind);
+    out.writeWrappedString(uniform.name);
+}
+
+static void readItem(osgDB::InputStream& in, MatrixUniform& uniform) {
+    int kind = 0;
+    in >> kind;
+    uniform.kind = MatrixUniform::Kind(kind);
+    in.readWrappedString(uniform.name);
+}
+
 static void writeItem(osgDB::OutputStream& out, const osg::Vec4d& plane) { fields::writeExactVector(out, plane); }
 
 static void readItem(osgDB::InputStream& in, osg::Vec4d& plane) { plane = fields::readExactVector<osg::Vec4d>(in); }
@@ -219,6 +231,10 @@ GNOMON_WRAPPER(ShadowCasterGroup, newGroup(), "osg::Object osg::Node osg::Group"
     {
         UPDATE_TO_VERSION_SCOPED(5)
         ADD_BOOL_SERIALIZER(TerminatorOffset, true);
+    }
+    {
+        UPDATE_TO_VERSION_SCOPED(6)
+        addList<MyClass, &MyClass::getMatrixUniforms, &MyClass::setMatrixUniforms>(*wrapper, "MatrixUniforms");
     }
 }
 

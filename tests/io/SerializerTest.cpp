@@ -144,6 +144,7 @@ osg::ref_ptr<osg::Group> everySetting() {
     group->setLights(
         {{1, delicate[0]}, {2, delicate[1], {0.1, -1.0 / 3.0, 4234567.123456789}, 100.0 / 3.0}, {7, delicate[2]}});
     group->setLightUniforms({{7, "sun colour \"quoted\""}, {0, "sun.diffuse"}});
+    group->setMatrixUniforms({{"view \"projection\"", gnomon::MatrixUniform::VIEW_PROJECTION}, {"mvp"}});
     group->setCompositorOptions(options);
 
     group->addChild(planarOf(ground));
@@ -516,6 +517,7 @@ TEST(BinaryFile, OfTheVersionBeforeHasDefaultsForWhatCameLater) {
     group->setDark(third);
     group->setClipping(ShadowCasterGroup::ALL);
     group->setTerminatorOffset(false);
+    group->addMatrixUniform({"mvp"});
     std::string file = test::written(*group, "osgb");
     file[file.find("gnmn") + 4] = 3;
     const auto loaded = test::loadedAs<ShadowCasterGroup>(file, "osgb");
@@ -523,6 +525,7 @@ TEST(BinaryFile, OfTheVersionBeforeHasDefaultsForWhatCameLater) {
     EXPECT_EQ(loaded->getDark(), third);
     EXPECT_EQ(loaded->getClipping(), ShadowCasterGroup::GRAPH);
     EXPECT_TRUE(loaded->getTerminatorOffset());
+    EXPECT_TRUE(loaded->getMatrixUniforms().empty());
 }
 
 TEST(BinaryFile, WithCuresThatAreGoneKeepsAllElse) {
@@ -541,7 +544,7 @@ TEST(BinaryFile, OfAnotherVersionIsRefusedWithTheReason) {
     test::usePluginsOfThisBuild();
     std::string file = test::written(*osg::ref_ptr<osg::Node>(new ShadowCasterGroup), "osgb");
     const std::size_t version = file.find("gnmn") + 4;
-    ASSERT_EQ(file.substr(version, 4), std::string("\5\0\0\0", 4));
+    ASSERT_EQ(file.substr(version, 4), std::string("\6\0\0\0", 4));
     EXPECT_TRUE(test::loaded(file, "osgb"));
     const auto why = [&](char number) {
         file[version] = number;

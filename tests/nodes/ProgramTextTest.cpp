@@ -70,6 +70,36 @@ TEST(ProgramText, MapsLetThoseMoveThatTakeTheProjection) {
                          "gl_Position.z = log2(gl_Position.w) * gl_Position.w; }"));
 }
 
+TEST(ProgramText, NamedUniformsCountAsTheProjectionWhereTheyAreReadAsMatrices) {
+    const auto follows = [](const std::string& declared, const std::string& fragment = "") {
+        const std::string vertex =
+            declared + " void main() { vec4 v = gl_Vertex; v.z += 1.0; gl_Position = mvp * other * v; }";
+        return gnomon::placesOf(*programOf(vertex, fragment), {{"mvp"}}).castsWhereItMoves();
+    };
+    EXPECT_TRUE(follows("uniform mat4 mvp;"));
+    EXPECT_TRUE(follows("layout(location = 3) uniform highp mat4 other, mvp;"));
+    EXPECT_FALSE(follows("uniform mat4 other; /* uniform mat4 mvp; */"));
+    EXPECT_FALSE(follows("uniform mat4 mvp[2];"));
+    EXPECT_FALSE(follows("uniform mat3 mvp;"));
+    EXPECT_FALSE(follows("uniform Matrices { mat4 mvp; };")) << "a block's";
+    EXPECT_FALSE(follows("const mat4 mvp = mat4(1.0);"));
+    EXPECT_FALSE(follows("uniform mat4 mvp;", "void main() { if (fract(gl_FragCoord.x * 0.5) > 0.4) discard; }"));
+    const osg::ref_ptr<osg::Program> unread =
+        programOf("uniform mat4 mvp, mine; void main() { gl_Position = mine * (gl_Vertex + 1.0); }");
+    EXPECT_FALSE(gnomon::placesOf(*unread, {{"mvp"}}).castsWhereItMoves());
+    EXPECT_FALSE(gnomon::placesOf(*unread).castsWhereItMoves());
+    EXPECT_TRUE(gnomon::placesOf(*unread, {{"mvp"}, {"mine"}}).castsWhereItMoves());
+}
+
+TEST(ProgramText, ADepthByANamedProjectionIsOpenGLs) {
+    const osg::ref_ptr<osg::Program> program =
+        programOf("varying vec4 eye; void main() { eye = gl_ModelViewMatrix * gl_Vertex; gl_Position = ftransform(); }",
+                  "varying vec4 eye; uniform mat4 lens; void main() { vec4 clip = lens * eye;\n"
+                  "gl_FragDepth = 0.5 * clip.z / clip.w + 0.5; gl_FragColor = vec4(1.0); }");
+    EXPECT_TRUE(gnomon::placesOf(*program).setsDepth);
+    EXPECT_FALSE(gnomon::placesOf(*program, {{"lens", gnomon::MatrixUniform::PROJECTION}}).setsDepth);
+}
+
 TEST(ProgramText, AGeometryShaderMayMakeTriangles) {
     const auto makes = [](const std::string& text, int output) {
         const osg::ref_ptr<osg::Program> program = programOf("void main() { gl_Position = ftransform(); }");

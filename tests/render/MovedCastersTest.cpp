@@ -20,11 +20,13 @@
 #include <osgAnimation/RigGeometry>
 #include <osgAnimation/RigTransformHardware>
 #include <osgAnimation/Skeleton>
+#include <osgUtil/CullVisitor>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
+#include <memory>
 
 using namespace test;
 
@@ -597,4 +599,211 @@ TEST(MovedCastersOverTime, ShadowThemselves) {
     EXPECT_GT(shadowed, 5000);
     EXPECT_LE(wrong, wrongOfMap + 10) << "of " << judged;
     EXPECT_EQ(technique->diagnose(), std::vector<std::string>());
+}
+
+namespace {
+
+using gnomon::MatrixUniform;
+
+const Mesh wide = box({-0.9, -0.4, 0.0}, {0.9, 0.4, 1.5}), wideBelow = box({-0.9, -0.4, 0.0}, {0.9, 0.4, 1.0});
+const osg::Matrixd placing = osg::Matrixd::rotate(0.5, 0.0, 0.0, 1.0) * osg::Matrixd::translate(0.7, -0.4, 0.0);
+
+/// A program that projects by a uniform of its own.
+struct OwnMatrix {
+    const char* name;
+    MatrixUniform uniform;
+    std::string declared, clip; ///< the product that takes v to clip space.
+    bool discards = false;      ///< what is above a height, and moves nothing.
+};
+std::ostream& operator<<(std::ostream& out, const OwnMatrix& own) { return out << own.name; }
+const OwnMatrix ownMatrices[] = {
+    {"ModelViewProjection", {"mvp", MatrixUniform::MODEL_VIEW_PROJECTION}, "uniform mat4 mvp;", "mvp * v"},
+    {"Projection",
+     {"projection", MatrixUniform::PROJECTION},
+     "uniform mat4 projection;",
+     "projection * (gl_ModelViewMatrix * v)"},
+    {"ViewProjection",
+     {"viewProjection", MatrixUniform::VIEW_PROJECTION},
+     "uniform mat4 world, viewProjection;",
+     "viewProjection * (world * v)"},
+    {"Discarding", {"mvp", MatrixUniform::MODEL_VIEW_PROJECTION}, "uniform mat4 mvp;", "mvp * v", true}};
+
+osg::Matrixd valueOf(MatrixUniform::Kind kind, const View& from) {
+    const osg::Matrixd clipFromWorld = from.view * from.projection;
+    return kind == MatrixUniform::PROJECTION        ? from.projection
+           : kind == MatrixUniform::VIEW_PROJECTION ? clipFromWorld
+                                                    : placing * clipFromWorld;
+}
+
+/// Sets the uniform in each update, as applications do.
+struct FollowsView : public osg::UniformCallback {
+    FollowsView(MatrixUniform::Kind which, const std::shared_ptr<View>& from) : kind(which), shown(from) {}
+    void operator()(osg::Uniform* uniform, osg::NodeVisitor*) override {
+        uniform->set(osg::Matrixf(valueOf(kind, *shown)));
+    }
+    const MatrixUniform::Kind kind;
+    const std::shared_ptr<View> shown;
+};
+
+/// A leaning body, or one whose head is discarded, at another place than its arrays'.
+Figure projected(const OwnMatrix& own, const std::shared_ptr<View>& shown = nullptr) {
+    Figure figure;
+    figure.addTime();
+    const osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(placing);
+    figure.node->addChild(place);
+    const osg::ref_ptr<osg::Program> program =
+        vertexProgram("uniform float time; varying float height; " + own.declared,
+                      std::string("vec4 v = gl_Vertex; height = v.z; ") +
+                          (own.discards ? "" : "v.x += 0.7 * time * v.z; ") + "gl_Position = " + own.clip + ";");
+    const std::string cut = own.discards ? "if (height > 1.0) discard; " : "";
+    program->addShader(new osg::Shader(osg::Shader::FRAGMENT,
+                                       "varying float height; void main() { " + cut + "gl_FragColor = gl_Color; }"));
+    Figure one;
+    one.node = place;
+    one.add(wide, program, around);
+    osg::StateSet* state = place->getOrCreateStateSet();
+    const osg::ref_ptr<osg::Uniform> matrix =
+        new osg::Uniform(own.uniform.name.c_str(), osg::Matrixf(valueOf(own.uniform.kind, view)));
+    if (shown) matrix->setUpdateCallback(new FollowsView(own.uniform.kind, shown));
+    state->addUniform(matrix);
+    state->addUniform(new osg::Uniform("world", osg::Matrixf(placing)));
+    figure.mesh = [discards = own.discards](double time) {
+        return carried(discards ? wideBelow : wide, [&](const glm::dvec3& p) {
+            const osg::Vec3d to = osg::Vec3d(p.x + (discards ? 0.0 : 0.7 * time * p.z), p.y, p.z) * placing;
+            return glm::dvec3(to.x(), to.y(), to.z());
+        });
+    };
+    return figure;
+}
+
+class ProjectedCasters : public testing::TestWithParam<OwnMatrix> {};
+INSTANTIATE_TEST_SUITE_P(Uniforms, ProjectedCasters, testing::ValuesIn(ownMatrices), testing::PrintToStringParamName());
+
+} // namespace
+
+/// The view goes away and comes back between the pictures.
+TEST_P(ProjectedCasters, CastWhereTheirProgramDrawsThemOnceTheirMatrixIsNamed) {
+    for (const osg::Vec4d& light : {sun, lamp}) {
+        const auto shown = std::make_shared<View>(view);
+        Trial trial(projected(GetParam(), shown), light);
+        trial.scene.group->addMatrixUniform(GetParam().uniform);
+        const std::string by = light == lamp ? "a lamp" : "a sun";
+        expectRight(trial, by + ", relit");
+        *shown = perspective({4.0, -9.0, 7.0}, {0.0, 0.0, 0.0}, 480, 360, 45.0);
+        trial.camera->setView(*shown);
+        trial.camera->frame();
+        *shown = view;
+        trial.camera->setView(view);
+        trial.blendToBlack();
+        expectRight(trial, by + ", blended");
+    }
+}
+
+/// The view draws by the application's own value, though osg::State has no reason to set that again.
+TEST_P(ProjectedCasters, AreSeenWhereTheyWere) {
+    Figure seen = projected(GetParam());
+    Scene bare = groundScene({}, half, sun);
+    bare.content->addChild(seen.node);
+    Camera camera(bare.root, view);
+    Trial trial(projected(GetParam()));
+    trial.scene.group->addMatrixUniform(GetParam().uniform);
+    for (const double time : {0.0, 0.4, -0.3}) {
+        EXPECT_EQ(trial.at(time).wrong, 0) << time;
+        seen.setTime(time);
+        const Picture expected = camera.frame(), found = trial.camera->frame();
+        const Mask mask = castRays(square(half), {seen.mesh(time)}, sun, view);
+        int different = 0, all = 0;
+        for (int y = 0; y < view.height; ++y)
+            for (int x = 0; x < view.width; ++x) {
+                if (mask.at(x, y) != Seen::Caster) continue;
+                ++all;
+                different += found.at(x, y) != expected.at(x, y);
+            }
+        EXPECT_GT(all, 500) << time;
+        EXPECT_EQ(different, 0) << time;
+    }
+}
+
+TEST_P(ProjectedCasters, CastAsTheirArraysStandAndAreNamedUntilTheirMatrixIs) {
+    Trial trial(projected(GetParam()));
+    const auto isNamed = [&trial] {
+        const std::vector<std::string> causes = trial.technique->diagnose();
+        return std::any_of(causes.begin(), causes.end(), [](const std::string& cause) {
+            return cause.find("name its matrix by addMatrixUniform()") != std::string::npos;
+        });
+    };
+    EXPECT_GT(trial.at(0.6).wrong, 100);
+    EXPECT_TRUE(isNamed());
+    trial.scene.group->addMatrixUniform({"other", GetParam().uniform.kind});
+    EXPECT_GT(trial.at(0.6).wrong, 100) << "the program has no such uniform";
+    EXPECT_TRUE(isNamed());
+    trial.scene.group->addMatrixUniform(GetParam().uniform);
+    EXPECT_EQ(trial.at(0.6).wrong, 0);
+    EXPECT_FALSE(isNamed());
+    trial.scene.group->setMatrixUniforms({});
+    EXPECT_GT(trial.at(0.6).wrong, 100);
+    EXPECT_TRUE(isNamed());
+}
+
+/// A uniform of another kind is drawn by another matrix: the map is drawn again.
+TEST(ProjectedCastersByName, MayBeNamedOtherwise) {
+    Trial trial(projected(ownMatrices[0]));
+    trial.scene.group->addMatrixUniform({"mvp", MatrixUniform::PROJECTION});
+    EXPECT_GT(trial.at(0.3).wrong, 100);
+    trial.scene.group->setMatrixUniforms({ownMatrices[0].uniform});
+    EXPECT_EQ(trial.at(0.3).wrong, 0);
+    trial.scene.group->addMatrixUniform({"mvp", MatrixUniform::Kind(3)}); // refused
+    trial.scene.group->setMatrixUniforms(trial.scene.group->getMatrixUniforms());
+    EXPECT_EQ(trial.scene.group->getMatrixUniforms(), std::vector<MatrixUniform>{ownMatrices[0].uniform});
+    EXPECT_EQ(trial.at(0.3).wrong, 0);
+}
+
+/// The world's frame is above the camera that draws, whatever the viewer's own camera sees.
+TEST(ProjectedCastersByName, HaveTheViewOfANestedCamera) {
+    Trial trial(projected(ownMatrices[2]));
+    trial.scene.group->addMatrixUniform(ownMatrices[2].uniform);
+    const osg::ref_ptr<osg::Camera> nested = new osg::Camera;
+    nested->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
+    nested->setRenderOrder(osg::Camera::POST_RENDER);
+    nested->setClearMask(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+    nested->setClearColor(osg::Vec4(0.0f, 0.0f, 0.0f, 1.0f));
+    nested->setComputeNearFarMode(osg::Camera::DO_NOT_COMPUTE_NEAR_FAR);
+    nested->setViewport(0, 0, view.width, view.height);
+    nested->setViewMatrix(view.view);
+    nested->setProjectionMatrix(view.projection);
+    nested->addChild(trial.scene.root);
+    Camera camera(nested, perspective({4.0, -9.0, 7.0}, {0.0, 0.0, 0.0}, view.width, view.height, 45.0));
+    for (const double time : {0.0, 0.4}) {
+        trial.figure.setTime(time);
+        const Judged found = judge(camera.frame(), trial.figure.mesh(time), sun, trial.lit, trial.dark);
+        EXPECT_GT(found.shadowed, 500) << time;
+        EXPECT_EQ(found.wrong, 0) << time;
+    }
+}
+
+namespace {
+
+/// Hands what is below it the matrix of the view that culls, as no node of the graph has it.
+struct PushesMatrix : public osg::NodeCallback {
+    void operator()(osg::Node* node, osg::NodeVisitor* visitor) override {
+        osgUtil::CullVisitor& cull = *visitor->asCullVisitor();
+        const osg::ref_ptr<osg::StateSet> state = new osg::StateSet;
+        state->addUniform(
+            new osg::Uniform("mvp", osg::Matrixf(*cull.getModelViewMatrix() * *cull.getProjectionMatrix())));
+        cull.pushStateSet(state);
+        traverse(node, visitor);
+        cull.popStateSet();
+    }
+};
+
+} // namespace
+
+TEST(ProjectedCastersByName, MayHaveTheirMatrixByACullCallback) {
+    const Figure figure = projected(ownMatrices[0]);
+    osg::Group& place = *figure.node->getChild(0)->asGroup();
+    place.getStateSet()->removeUniform("mvp");
+    place.getChild(0)->setCullCallback(new PushesMatrix);
+    Trial trial(figure);
+    trial.scene.group->addMatrixUniform(ownMatrices[0].uniform);
+    expectRight(trial, "a sun");
 }

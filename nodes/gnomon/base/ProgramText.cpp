@@ -180,11 +180,31 @@ bool bendsDepth(const std::string& text, const Tokens& tokens) {
     return false;
 }
 
+/// True if the text declares a uniform mat4 by one of these names, and reads it.
+bool reads(const std::string& text, const std::vector<MatrixUniform>& matrices) {
+    if (matrices.empty()) return false;
+    const Tokens tokens = tokensOf(text);
+    std::set<std::string> declared;
+    bool isUniform = false, isMatrix = false; // of the statement
+    for (std::size_t i = 0; i < tokens.size(); ++i) {
+        const std::string& token = tokens[i];
+        const bool ends = token == ";" || token == "{" || token == "}";
+        isUniform = !ends && (isUniform || token == "uniform");
+        isMatrix = !ends && (isMatrix || token == "mat4");
+        if (!isUniform && declared.count(token) > 0) return true;
+        const auto isIt = [&token](const MatrixUniform& matrix) { return matrix.name == token; };
+        const bool isArray = i + 1 < tokens.size() && tokens[i + 1] == "[";
+        if (isUniform && isMatrix && !isArray && std::any_of(matrices.begin(), matrices.end(), isIt))
+            declared.insert(token);
+    }
+    return false;
+}
+
 /// A fragment's own depth is taken for OpenGL's where its text speaks of how that is made.
-bool replacesDepth(const std::string& text) {
+bool replacesDepth(const std::string& text, const std::vector<MatrixUniform>& matrices) {
     if (!contains(text, "gl_FragDepth")) return false;
-    const bool asOpenGl =
-        contains(text, "gl_DepthRange") || contains(text, "ProjectionMatrix") || contains(text, "gl_FragCoord.z");
+    const bool asOpenGl = contains(text, "gl_DepthRange") || contains(text, "ProjectionMatrix") ||
+                          contains(text, "gl_FragCoord.z") || reads(text, matrices);
     return contains(text, "log") || !asOpenGl;
 }
 
@@ -275,24 +295,25 @@ bool makesTriangles(const osg::Program& program) {
 
 /// @param others  texts of the stages between the two.
 ProgramPlaces found(const osg::Program& program, const std::string& vertex, const std::string& fragment,
-                    const std::string& others) {
+                    const std::string& others, const std::vector<MatrixUniform>& matrices) {
     const Tokens tokens = tokensOf(vertex);
     ProgramPlaces places;
     places.movesVertices = !others.empty() || (!vertex.empty() && !VertexWay(tokens, program).arrives());
-    places.setsDepth = bendsDepth(vertex, tokens) || replacesDepth(fragment);
+    places.setsDepth = bendsDepth(vertex, tokens) || replacesDepth(fragment, matrices);
     const Tokens inFragment = contains(fragment, discard) ? tokensOf(fragment) : Tokens();
     const bool isDiscarded = std::find(inFragment.begin(), inFragment.end(), discard) != inFragment.end();
     places.discardsByPixel = isDiscarded && PixelWay(inFragment).arrives();
     places.discards =
         isDiscarded || std::any_of(tokens.begin(), tokens.end(), [](const auto& token) { return cuts(token); });
     const bool isFixed = vertex.empty() && others.empty(); // fragments alone are the program's
-    places.takesProjection = isFixed || takesProjection(tokens) || takesProjection(tokensOf(others));
+    places.takesProjection = isFixed || takesProjection(tokens) || takesProjection(tokensOf(others)) ||
+                             reads(vertex, matrices) || reads(others, matrices);
     return places;
 }
 
 } // namespace
 
-ProgramPlaces placesOf(const osg::Program& program) {
+ProgramPlaces placesOf(const osg::Program& program, const std::vector<MatrixUniform>& matrices) {
     std::string vertex, fragment, others;
     for (unsigned i = 0; i < program.getNumShaders(); ++i) {
         const osg::Shader& shader = *program.getShader(i);
@@ -304,11 +325,12 @@ ProgramPlaces placesOf(const osg::Program& program) {
     static std::map<std::size_t, ProgramPlaces> known;
     std::string all = vertex + '\0' + fragment + '\0' + others;
     for (const auto& [name, index] : program.getAttribBindingList()) all += '\0' + name + std::to_string(index);
+    for (const MatrixUniform& matrix : matrices) all += '\1' + matrix.name;
     const std::size_t key = std::hash<std::string>()(all);
     const OpenThreads::ScopedLock<OpenThreads::Mutex> lock(mutex);
     if (known.size() > 1000) known.clear(); // texts that are made anew in each frame
     const auto [entry, isNew] = known.try_emplace(key);
-    if (isNew) entry->second = found(program, vertex, fragment, others);
+    if (isNew) entry->second = found(program, vertex, fragment, others, matrices);
     ProgramPlaces places = entry->second;
     places.makesTriangles = !others.empty() && makesTriangles(program);
     return places;

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/MatrixUniform.h>
+
 #include <osg/Program>
 #include <osg/StateAttribute>
+
+#include <vector>
 
 namespace gnomon {
 
@@ -20,7 +24,8 @@ struct ProgramPlaces {
     bool discardsByPixel = false;
     /// Its text is not known: see mayApplyProgram(). It counts as one that does all of the above but the last.
     bool unseen = false;
-    /// It reads OpenGL's or OpenSceneGraph's projection: where a light's stands in its place, it draws what the light sees.
+    /// It reads OpenGL's or OpenSceneGraph's projection, or one that is named: where a light's stands in its place, it draws what
+    /// the light sees.
     bool takesProjection = false;
     /// A geometry shader makes triangles, of points and lines, too.
     bool makesTriangles = false;
@@ -30,7 +35,8 @@ struct ProgramPlaces {
 };
 
 /// Threads any number. What was found is kept, by the text.
-ProgramPlaces placesOf(const osg::Program& program);
+/// @param matrices  uniforms that count as OpenGL's projection where the text declares and reads them as a mat4.
+ProgramPlaces placesOf(const osg::Program& program, const std::vector<MatrixUniform>& matrices = {});
 /// The same as placesOf().discards, and cheap for a program that does not.
 bool mayDiscard(const osg::Program& program);
 /// True if its text writes gl_ClipDistance, which a clip mode of each of its elements switches on.

@@ -251,7 +251,7 @@ void CastingJudge::reset() {
 
 const ProgramPlaces& CastingJudge::placesIn(const osg::Program& program) {
     const auto [known, isNew] = _programs.try_emplace(&program);
-    if (isNew) known->second = placesOf(program);
+    if (isNew) known->second = placesOf(program, _rule ? _rule->matrices : std::vector<MatrixUniform>());
     return known->second;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/MatrixUniform.h>
 #include <gnomon/base/Fingerprint.h>
 #include <gnomon/base/ProgramText.h>
 #include <gnomon/casters/DrawnAlpha.h>
@@ -183,7 +184,8 @@ struct CastingRule {
         All,
         None
     } clips = OfGraph;
-    bool offsetsTerminator = true; ///< See Casting::offsetsTerminator.
+    bool offsetsTerminator = true;         ///< See Casting::offsetsTerminator.
+    std::vector<MatrixUniform> matrices{}; ///< By which programs project.
 };
 
 /// A clip plane by OpenGL's number. Kept is what has no negative distance from it.
@@ -199,7 +201,7 @@ using NumberedPlane = std::pair<unsigned, osg::Vec4d>;
 /// - Of what a program moves, all, where its arrays stand. Maps let the program draw it in its place: see
 ///   ProgramPlaces::castsWhereItMoves().
 /// - Of what a program discards, or may discard where its text is not known, nobody knows what is left but who draws it. Of what
-///   it discards by gl_FragCoord, or under a projection of its own, all.
+///   it discards by gl_FragCoord, or under a projection of its own that is not named, all.
 ///
 /// Light is not the camera: a face culled for the eye casts, and so does what a scissor box keeps out of a picture.
 ///

@@ -237,11 +237,11 @@ DepthPlacement depthPlacementOf(const osgUtil::StateGraph* graph) {
     return placement;
 }
 
-ProgramPlaces placesIn(const osgUtil::StateGraph* graph) {
+ProgramPlaces placesIn(const osgUtil::StateGraph* graph, const std::vector<MatrixUniform>& matrices) {
     const KnownStates scope;
     if (known.mayApplyProgram(graph)) return {true, true, true, false, true};
     const auto* program = resolved<osg::Program>(graph, osg::StateAttribute::PROGRAM);
-    return program && program->getNumShaders() > 0 ? placesOf(*program) : ProgramPlaces();
+    return program && program->getNumShaders() > 0 ? placesOf(*program, matrices) : ProgramPlaces();
 }
 
 namespace {

@@ -9,6 +9,7 @@
 #include <osgUtil/StateGraph>
 
 #include <tuple>
+#include <vector>
 
 namespace gnomon {
 
@@ -43,7 +44,8 @@ const Attribute* resolved(const osgUtil::StateGraph* graph, osg::StateAttribute:
 }
 
 /// What the program that draws so says of where, and what, it draws; nothing where none does.
-ProgramPlaces placesIn(const osgUtil::StateGraph* graph);
+/// @param matrices  as of placesOf().
+ProgramPlaces placesIn(const osgUtil::StateGraph* graph, const std::vector<MatrixUniform>& matrices = {});
 
 /// True if what is drawn so leaves its depth: depth test and depth mask are on.
 bool writesDepth(const osgUtil::StateGraph* graph);

@@ -40,7 +40,8 @@ void reportSelfDrawings(const EnlistedTechnique& entry, const Casters& casters) 
         report("what discards by gl_FragCoord, or has a projection of its own and discards, casts as if it were solid, "
                "because no light can draw it: " +
                std::to_string(casters.screenDoors) + ", the first in '" + casters.screenDoorNode +
-               "'. Take it out of the casters once it has faded, or use gl_ProjectionMatrix or osg_ProjectionMatrix.");
+               "'. Take it out of the casters once it has faded, or use gl_ProjectionMatrix or osg_ProjectionMatrix, "
+               "or name its matrix by addMatrixUniform().");
     if (entry.technique->drawsCasters()) {
         const auto hasNone = [](const auto& drawing) { return !drawing->bounds.valid(); };
         const auto unbounded = std::find_if(drawings.begin(), drawings.end(), hasNone);

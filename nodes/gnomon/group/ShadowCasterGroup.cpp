@@ -27,8 +27,8 @@ CastingRule ruleOf(const ShadowCasterGroup& group) {
     const auto clips = group.getClipping() == ShadowCasterGroup::ALL    ? CastingRule::All
                        : group.getClipping() == ShadowCasterGroup::NONE ? CastingRule::None
                                                                         : CastingRule::OfGraph;
-    const bool offset = group.getTerminatorOffset();
-    return from < 0.0f ? CastingRule{0.5f, 1.0f, clips, offset} : CastingRule{from, from, clips, offset};
+    const float even = from < 0.0f ? 1.0f : from;
+    return {from < 0.0f ? 0.5f : from, even, clips, group.getTerminatorOffset(), group.getMatrixUniforms()};
 }
 
 /// Techniques that are off are met as well.
@@ -54,6 +54,7 @@ ShadowCasterGroup::ShadowCasterGroup(const ShadowCasterGroup& other, const osg::
       _opaqueFrom(other._opaqueFrom),
       _lights(other._lights),
       _lightUniforms(other._lightUniforms),
+      _matrixUniforms(other._matrixUniforms),
       _options(other._options),
       _table(new CasterTable) {
     _table->setRule(ruleOf(*this));
@@ -155,6 +156,23 @@ void ShadowCasterGroup::addLightUniform(const LightUniform& uniform) {
 void ShadowCasterGroup::setLightUniforms(std::vector<LightUniform> uniforms) {
     _lightUniforms.clear();
     for (const LightUniform& uniform : uniforms) addLightUniform(uniform);
+}
+
+void ShadowCasterGroup::addMatrixUniform(const MatrixUniform& uniform) {
+    if (uniform.kind < MatrixUniform::MODEL_VIEW_PROJECTION || uniform.kind > MatrixUniform::VIEW_PROJECTION) {
+        OSG_WARN << "gnomon: ShadowCasterGroup::addMatrixUniform(): kind " << int(uniform.kind) << " of '"
+                 << uniform.name << "' is refused. Give MODEL_VIEW_PROJECTION, PROJECTION or VIEW_PROJECTION."
+                 << std::endl;
+        return;
+    }
+    _matrixUniforms.push_back(uniform);
+    _table->setRule(ruleOf(*this));
+}
+
+void ShadowCasterGroup::setMatrixUniforms(std::vector<MatrixUniform> uniforms) {
+    _matrixUniforms.clear();
+    _table->setRule(ruleOf(*this));
+    for (const MatrixUniform& uniform : uniforms) addMatrixUniform(uniform);
 }
 
 void ShadowCasterGroup::removeLights() {

@@ -110,7 +110,9 @@ const DrawablePlaces& ViewPrograms::standing(const osg::Matrixd& projection) con
 void ViewPrograms::report(const EnlistedTechnique& entry, const Leaves& receiving, const Leaves& receivingLate) const {
     for (const Leaves* leaves : {&receiving, &receivingLate}) {
         if (_setDepths.empty()) break;
-        const auto bends = [this](const auto* leaf) { return _setDepths.count(leaf) > 0; };
+        const auto bends = [&](const auto* leaf) {
+            return _setDepths.count(leaf) > 0 && placesIn(leaf->_parent, entry.group->getMatrixUniforms()).setsDepth;
+        };
         const auto bent = std::find_if(leaves->begin(), leaves->end(), bends);
         if (bent == leaves->end()) continue;
         entry.report(
@@ -131,21 +133,25 @@ void ViewPrograms::report(const EnlistedTechnique& entry, const Leaves& receivin
 /// Maps let programs draw, but for those that do not take the light's projection, or discard by the picture's pixels.
 void ViewPrograms::reportMoved(const EnlistedTechnique& entry) const {
     const bool letsDraw = entry.technique->drawsCasters();
+    const auto castsWhereItMoves = [&entry](const osgUtil::RenderLeaf& leaf) {
+        return placesIn(leaf._parent, entry.group->getMatrixUniforms()).castsWhereItMoves();
+    };
     std::vector<DrawnLeaf> left;
     for (const DrawnLeaf& each : _moving)
-        if (!letsDraw || !placesIn(each.leaf->_parent).castsWhereItMoves()) left.push_back(each);
+        if (!letsDraw || !castsWhereItMoves(*each.leaf)) left.push_back(each);
     const osgUtil::RenderLeaf* moved = firstCaster(*entry.group, left, _eyeFromWorld);
     if (!moved) return;
-    if (placesIn(moved->_parent).castsWhereItMoves())
+    if (castsWhereItMoves(*moved))
         entry.report(
             "the program of '" + nameOf(*moved) +
             "' moves its vertices, but it casts where its arrays stand. Use map, or take it out of the casters "
             "(setCasters(), --casters), and let a node that is never drawn cast in its place.");
     else
-        entry.report("the program of '" + nameOf(*moved) +
-                     "' moves its vertices by a projection or depth of its own, or discards by pixels, so it casts "
-                     "where its arrays stand. Use gl_ProjectionMatrix or osg_ProjectionMatrix under map, or let a node "
-                     "that is never drawn cast in its place.");
+        entry.report(
+            "the program of '" + nameOf(*moved) +
+            "' moves its vertices by a projection or depth of its own, or discards by pixels, so it casts "
+            "where its arrays stand. Under map, use gl_ProjectionMatrix or osg_ProjectionMatrix, or name its matrix "
+            "by addMatrixUniform(). Or let a node that is never drawn cast in its place.");
 }
 
 std::string ViewPrograms::firstUnseen(const ShadowCasterGroup& group, const Leaves& receiving,

@@ -67,6 +67,9 @@ public:
     /// For a technique of this group with these receivers.
     void report(const EnlistedTechnique& entry, const Leaves& receiving, const Leaves& receivingLate) const;
 
+    /// View matrix of the camera that draws the leaves.
+    const osg::Matrixd& eyeFromWorld() const { return _eyeFromWorld; }
+
     /// True if the leaf's program moves its vertices, so that it is not where its box is.
     bool moves(const osgUtil::RenderLeaf& leaf) const { return _moved && _moved->count(&leaf) > 0; }
     /// All such leaves; null if there are none.

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <initializer_list>
 #include <iterator>
+#include <map>
 #include <optional>
 
 namespace gnomon {
@@ -152,6 +153,39 @@ private:
     const osg::ref_ptr<osg::RefMatrix> _projection, _modelview;
 };
 
+/// While the program that is applied has the light's matrices in the uniforms that the group names. They have their values
+/// again at its end, which osg::State believes them to have.
+class NamedMatrices {
+public:
+    NamedMatrices(osg::State& state, const SelfDrawnCasters& all, const glm::dmat4& clipFromEye,
+                  const glm::dmat4& eyeFromLocal)
+        : _gl(*state.get<osg::GLExtensions>()) {
+        const auto* program = state.getLastAppliedProgramObject();
+        if (!program) return;
+        for (const MatrixUniform& uniform : all.matrices) {
+            const auto active = program->getActiveUniforms().find(osg::Uniform::getNameID(uniform.name));
+            if (active == program->getActiveUniforms().end() || active->second._type != GL_FLOAT_MAT4) continue;
+            const glm::dmat4 eyeFromIts = uniform.kind == MatrixUniform::PROJECTION        ? glm::dmat4(1.0)
+                                          : uniform.kind == MatrixUniform::VIEW_PROJECTION ? all.eyeFromWorld
+                                                                                           : eyeFromLocal;
+            const glm::mat4 now(clipFromEye * eyeFromIts);
+            const GLint location = active->second._location;
+            const auto [before, isNew] = _before.try_emplace(location);
+            if (isNew) _gl.glGetUniformfv(program->getHandle(), location, &before->second[0][0]);
+            _gl.glUniformMatrix4fv(location, 1, GL_FALSE, &now[0][0]);
+        }
+    }
+    ~NamedMatrices() {
+        for (const auto& [location, value] : _before) _gl.glUniformMatrix4fv(location, 1, GL_FALSE, &value[0][0]);
+    }
+    NamedMatrices(const NamedMatrices&) = delete;
+    NamedMatrices& operator=(const NamedMatrices&) = delete;
+
+private:
+    const osg::GLExtensions& _gl;
+    std::map<GLint, glm::mat4> _before;
+};
+
 /// Draws one picture into the framebuffer that is bound, under a MapState.
 class Drawing {
 public:
@@ -270,6 +304,7 @@ private:
         for (unsigned i = 0; cuts && i < 8; ++i)
             if (_state.getLastAppliedMode(GL_CLIP_PLANE0 + i)) glEnable(GL_CLIP_PLANE0 + i);
         if (_state.getUseModelViewAndProjectionUniforms()) _state.applyModelViewAndProjectionUniformsIfRequired();
+        const NamedMatrices named(_state, _picture.selfDrawn, clipFromEye, eyeFromScene * caster.sceneFromLocal);
         caster.drawing->drawable->draw(_renderInfo);
     }
 

@@ -93,8 +93,7 @@ void LightShadowMaps::settle(bool same, const MapRequest& latest) {
 
 void LightShadowMaps::update(const ViewFrame& view, MapMeshes& meshes) {
     const MapCasters& casters = *_faces.request().casters;
-    const SelfDrawnCasters selfDrawn(casters.selfDrawn, SceneFrame(casters.layers.origin).eyeFromScene(view),
-                                     view.seen);
+    const SelfDrawnCasters selfDrawn(casters.selfDrawn, SceneFrame(casters.layers.origin).eyeFromScene(view), view);
     resize();
     const bool due = anyDue();
     if (!due && isOfCasters() && _picture->selfDrawn.areSame(selfDrawn)) return;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
+#include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/casters/CasterMesh.h>
 #include <gnomon/geometry/ScreenBounds.h>
+#include <gnomon/group/StageLeaves.h>
 #include <gnomon/map/MapCasters.h>
 
 #include <glm/common.hpp>
@@ -244,17 +246,19 @@ double MapLayer::clearanceOf(const glm::dvec3& lamp) const {
 
 /// osgUtil::SceneView's set has the time and the view's matrices, and is at the root of all leaves.
 SelfDrawnCasters::SelfDrawnCasters(const std::vector<SelfDrawnCaster>& all, const glm::dmat4& matrix,
-                                   const std::vector<const osgUtil::RenderLeaf*>& seen)
-    : casters(all), eyeFromScene(matrix) {
-    if (casters.empty() || seen.empty()) return;
-    for (const osgUtil::StateGraph* graph = seen.front()->_parent; graph; graph = graph->_parent)
+                                   const ViewFrame& view)
+    : casters(all), eyeFromScene(matrix), matrices(view.group->getMatrixUniforms()) {
+    if (view.drawn) eyeFromWorld = toGlm(view.drawn->eyeFromWorld());
+    if (casters.empty() || view.seen.empty()) return;
+    for (const osgUtil::StateGraph* graph = view.seen.front()->_parent; graph; graph = graph->_parent)
         if (graph->getStateSet() && graph->getStateSet()->getNumParents() == 0)
             states.insert(states.begin(), graph->getStateSet());
 }
 
 bool SelfDrawnCasters::areSame(const SelfDrawnCasters& other) const {
-    const bool sameView = eyeFromScene == other.eyeFromScene;
-    return std::equal(casters.begin(), casters.end(), other.casters.begin(), other.casters.end(),
+    const bool sameView = eyeFromScene == other.eyeFromScene && eyeFromWorld == other.eyeFromWorld;
+    return matrices == other.matrices &&
+           std::equal(casters.begin(), casters.end(), other.casters.begin(), other.casters.end(),
                       [sameView](const SelfDrawnCaster& a, const SelfDrawnCaster& b) {
                           return a.drawing == b.drawing && a.sceneFromLocal == b.sceneFromLocal &&
                                  !a.drawing->mayChange && (sameView || !a.drawing->byProgram);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/MatrixUniform.h>
+#include <gnomon/ViewFrame.h>
 #include <gnomon/casters/CasterLayers.h>
 #include <gnomon/casters/Casters.h>
 #include <gnomon/casters/CullableFaces.h>
@@ -53,9 +55,9 @@ struct MapMesh : public osg::Referenced {
 
     /// Some of the triangles.
     struct Triangles {
-        osg::ref_ptr<osg::DrawElementsUInt> corners;   ///< may be empty.
-        osg::ref_ptr<const CullableFaces> drawn{};     ///< null until they are asked for.
-        bool solids = false;                           ///< what bounds solids is told apart.
+        osg::ref_ptr<osg::DrawElementsUInt> corners; ///< may be empty.
+        osg::ref_ptr<const CullableFaces> drawn{};   ///< null until they are asked for.
+        bool solids = false;                         ///< what bounds solids is told apart.
     };
     Triangles all, unflat; ///< all that no texture cuts out; of it all but what is flat, as grounds are.
 
@@ -120,13 +122,12 @@ struct SelfDrawnCaster {
 /// OpenSceneGraph gives views.
 struct SelfDrawnCasters {
     SelfDrawnCasters() = default;
-    /// @param seen  leaves of the view.
-    SelfDrawnCasters(const std::vector<SelfDrawnCaster>& all, const glm::dmat4& eyeFromScene,
-                     const std::vector<const osgUtil::RenderLeaf*>& seen);
+    SelfDrawnCasters(const std::vector<SelfDrawnCaster>& all, const glm::dmat4& eyeFromScene, const ViewFrame& view);
 
     std::vector<SelfDrawnCaster> casters;
-    glm::dmat4 eyeFromScene{1.0};
+    glm::dmat4 eyeFromScene{1.0}, eyeFromWorld{1.0};
     std::vector<osg::ref_ptr<const osg::StateSet>> states; ///< of the view, that belong to no node.
+    std::vector<MatrixUniform> matrices;                   ///< of the group.
 
     /// True if they look as others do. What may change in each frame never does.
     bool areSame(const SelfDrawnCasters& other) const;
