@@ -191,6 +191,18 @@ TEST_P(BlendedLeaves, ReceiveThoughTheyWriteNoDepth) {
     EXPECT_TRUE(isRelit(render(leafy.scene.root, fromAbove(half, size)), writeNoDepth));
 }
 
+/// A map reaches for the leaves, too, and not for what leaves depth alone.
+TEST_P(BlendedLeaves, ReceiveWithoutDepthBesideWhatIsDrawnLateWithIt) {
+    const Dressed beside = [](Scene& scene, osg::Geode& sheet) {
+        writeNoDepth(scene, sheet);
+        const osg::ref_ptr<osg::Geode> post = node(quad({3.2, 3.2, 0.2}, {0.6, 0, 0}, {0, 0.6, 0}), "post");
+        post->getOrCreateStateSet()->setRenderBinDetails(9, "RenderBin");
+        scene.root->addChild(post);
+    };
+    Leafy leafy = withShadow(relit, beside);
+    EXPECT_TRUE(isRelit(render(leafy.scene.root, fromAbove(half, size)), beside));
+}
+
 TEST_P(BlendedLeaves, TakeTheFactorUnderBlend) {
     for (const Dressed& change : {Dressed(nothing), Dressed(writeNoDepth)}) {
         Leafy leafy = withShadow(blended, change);
