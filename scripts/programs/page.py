@@ -44,12 +44,11 @@ Each strip shows the frame without shadows, with `map`, and with osgShadow::Shad
 brighter than without shadows. "`volume` apart": pixels away from edges where `volume` and `traced` differ. Mesa's llvmpipe, OpenSceneGraph 3.6.5. A sun stands at azimuth 135°, elevation 45° if the
 program's only light is at the eye.*
 
-`volume` and `traced` differ away from edges in three programs:
+`volume` and `traced` differ away from edges in osgdepthpartition. It has an earth and a sun at their true distance. Floats hold casters
+of such a scene to kilometres, so `traced` and `map` leave facets at the terminator lit. `volume` has them in shadow.
 
-- osgdepthpartition has an earth and a sun at their true distance. Floats hold casters of such a scene to kilometres, so
-  `traced` and `map` leave facets at the terminator lit. `volume` has them in shadow.
-- osgsimpleshaders discards a whole block that casts, and one looks through it. `volume` cannot know that: see its Limits.
-- osgspheresegment shows glass before a terrain that is seen from below. The cause is not known.
+osgsimpleshaders shrinks its block by a program. `map` casts it where it is drawn, and it has no shadow; `volume` and `traced` cast it
+where its arrays stand, about what is drawn, and say so.
 """
 
 # What the causes of diagnose() have in common, and how the table has it. The first that fits counts.
