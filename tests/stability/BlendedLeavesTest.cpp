@@ -175,6 +175,17 @@ int wrongInGrey(const Picture& seen, double sheet, double shadowedGround) {
     return wrong;
 }
 
+/// Where the sheet receives nothing: pixels that are not as with its light, and the ground's own shadow.
+int wrongUnlessLit(const Dressed& change) {
+    Leafy leafy = withShadow(relit, change);
+    const Picture seen = render(leafy.scene.root, fromAbove(half, size)), lit = picture(true, true, change),
+                  dark = picture(true, false, change);
+    int wrong = 0;
+    for (const Place& place : places())
+        wrong += seen.pixels[place.at] != (place.onGround ? dark : lit).pixels[place.at];
+    return wrong;
+}
+
 void writeNoDepth(Scene&, osg::Geode& sheet) {
     sheet.getOrCreateStateSet()->setAttributeAndModes(new osg::Depth(osg::Depth::LESS, 0.0, 1.0, false));
 }
@@ -238,13 +249,7 @@ TEST_P(BlendedLeaves, OfAPassForLowAlphasReceiveNothing) {
     const Dressed lowOnly = [](Scene&, osg::Geode& sheet) {
         sheet.getOrCreateStateSet()->setAttributeAndModes(new osg::AlphaFunc(osg::AlphaFunc::LESS, 0.5f));
     };
-    Leafy leafy = withShadow(relit, lowOnly);
-    const Picture seen = render(leafy.scene.root, fromAbove(half, size)), lit = picture(true, true, lowOnly),
-                  dark = picture(true, false, lowOnly);
-    int wrong = 0;
-    for (const Place& place : places())
-        wrong += seen.pixels[place.at] != (place.onGround ? dark : lit).pixels[place.at];
-    EXPECT_EQ(wrong, 0);
+    EXPECT_EQ(wrongUnlessLit(lowOnly), 0);
 }
 
 /// The nearer of two hides the other, and both are drawn in their order.
@@ -388,13 +393,7 @@ TEST_P(BlendedLeaves, ThatLeaveNoDepthAndAreUnlitOrTestNoneReceiveNothing) {
             writeNoDepth(scene, sheet);
             sheet.getStateSet()->setMode(off, osg::StateAttribute::OFF);
         };
-        Leafy leafy = withShadow(relit, change);
-        const Picture seen = render(leafy.scene.root, fromAbove(half, size)), lit = picture(true, true, change),
-                      dark = picture(true, false, change);
-        int wrong = 0;
-        for (const Place& place : places())
-            wrong += seen.pixels[place.at] != (place.onGround ? dark : lit).pixels[place.at];
-        EXPECT_EQ(wrong, 0) << off;
+        EXPECT_EQ(wrongUnlessLit(change), 0) << off;
     }
 }
 

@@ -181,9 +181,8 @@ bool bendsDepth(const std::string& text, const Tokens& tokens) {
 }
 
 /// True if the text declares a uniform mat4 by one of these names, and reads it.
-bool reads(const std::string& text, const std::vector<MatrixUniform>& matrices) {
+bool reads(const Tokens& tokens, const std::vector<MatrixUniform>& matrices) {
     if (matrices.empty()) return false;
-    const Tokens tokens = tokensOf(text);
     std::set<std::string> declared;
     bool isUniform = false, isMatrix = false; // of the statement
     for (std::size_t i = 0; i < tokens.size(); ++i) {
@@ -204,7 +203,7 @@ bool reads(const std::string& text, const std::vector<MatrixUniform>& matrices) 
 bool replacesDepth(const std::string& text, const std::vector<MatrixUniform>& matrices) {
     if (!contains(text, "gl_FragDepth")) return false;
     const bool asOpenGl = contains(text, "gl_DepthRange") || contains(text, "ProjectionMatrix") ||
-                          contains(text, "gl_FragCoord.z") || reads(text, matrices);
+                          contains(text, "gl_FragCoord.z") || reads(tokensOf(text), matrices);
     return contains(text, "log") || !asOpenGl;
 }
 
@@ -306,8 +305,8 @@ ProgramPlaces found(const osg::Program& program, const std::string& vertex, cons
     places.discards =
         isDiscarded || std::any_of(tokens.begin(), tokens.end(), [](const auto& token) { return cuts(token); });
     const bool isFixed = vertex.empty() && others.empty(); // fragments alone are the program's
-    places.takesProjection = isFixed || takesProjection(tokens) || takesProjection(tokensOf(others)) ||
-                             reads(vertex, matrices) || reads(others, matrices);
+    const auto takes = [&matrices](const Tokens& stage) { return takesProjection(stage) || reads(stage, matrices); };
+    places.takesProjection = isFixed || takes(tokens) || takes(tokensOf(others));
     return places;
 }
 

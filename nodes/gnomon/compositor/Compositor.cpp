@@ -40,13 +40,13 @@ constexpr const char* backgroundNotKnown =
 constexpr const char* testsStencil =
     "an opaque object in this view has a stencil test of its own, so the shadow blends "
     "instead of relighting. Draw that object in a bin above 8, or set BLEND (composite=blend).";
-constexpr const char* testsStencilLate = "an object in a bin above 8 has a stencil test of its own, so the shadow on "
-                                         "all that is drawn there blends instead of "
-                                         "relighting. Set BLEND (composite=blend).";
-constexpr const char* leavesNotSaved = "what is clear in parts is drawn above bin 8 in a multisampled framebuffer "
-                                       "object, so the shadow on all that is drawn "
-                                       "there blends instead of relighting. Draw it in a bin below 8 by an "
-                                       "osg::AlphaFunc, or set BLEND (composite=blend).";
+constexpr const char* testsStencilLate =
+    "an object in a bin above 8 has a stencil test of its own, so the shadow on all that is drawn there blends instead "
+    "of relighting. Set BLEND (composite=blend).";
+constexpr const char* leavesNotSaved =
+    "what is clear in parts is drawn above bin 8 in a multisampled framebuffer object, so the shadow on all that is "
+    "drawn there blends instead of relighting. Draw it in a bin below 8 by an osg::AlphaFunc, or set BLEND "
+    "(composite=blend).";
 
 } // namespace
 
@@ -188,7 +188,7 @@ void Compositor::relight(const Jobs& wanted) {
     const ScreenRect bounds = screenBoundsOf(jobs);
     _marks.clearLeftovers(lightBits);
     _marks.mark(lights);
-    if (jobs.front()->hidingOnly && !darkenUnlit(lights)) return _draw.clear(lightBits, bounds);
+    if (jobs.front()->hidingOnly && !darkenUnlit(jobs, lightBits)) return _draw.clear(lightBits, bounds);
     resetMarked(lightBits, bounds);
     std::vector<ReplayedLeaf> catchers;
     for (unsigned lost = 1; lost < (1u << lights.size()); ++lost) replay(subsetOf(lights, lost), lightBits, catchers);
@@ -199,11 +199,10 @@ void Compositor::relight(const Jobs& wanted) {
 /// What blends and cannot lose a light takes the factor where it hides what is behind, once, and its marks go: drawn again in
 /// its own colour, it would be mixed with what is behind.
 /// @return whether marks are left: something else loses a light.
-bool Compositor::darkenUnlit(const MarkedLights& lights) {
-    const Jobs jobs = jobsOf(lights);
+bool Compositor::darkenUnlit(const Jobs& jobs, unsigned lightBits) {
     LeafReplay::Overlay overlay;
     overlay.stencilFunction = GL_NOTEQUAL;
-    overlay.test = overlay.write = bitsOf(lights);
+    overlay.test = overlay.write = lightBits;
     overlay.equalDepth = overlay.hidingOnly = true;
     overlay.bounds = screenBoundsOf(jobs);
     overlay.color = LeafReplay::Color::Factor;
@@ -301,9 +300,7 @@ void Compositor::blend(const Jobs& jobs, float dark) {
 }
 
 void Compositor::writeBackground(ScreenPass& screen) const {
-    if (_draw.since)
-        _draw.since->frame->drawColors(screen);
-    else if (FrameColorCopy* saved = PrepassBin::savedColors(_draw.stage)) {
+    if (FrameColorCopy* saved = _draw.since ? &_draw.since->frame->colors() : PrepassBin::savedColors(_draw.stage)) {
         screen.beginReplace();
         saved->draw(_draw.state);
         screen.endMix();
@@ -323,7 +320,10 @@ void Compositor::resetMarked(unsigned where, const ScreenRect& bounds) const {
     _draw.pass(bounds, [&](ScreenPass& screen) {
         screen.stencilAny(where);
         if (readsBack(_draw.leaves)) writeBackground(screen);
-        _draw.since ? void(_draw.since->frame->drawDepths(screen)) : screen.writeFarDepth();
+        if (_draw.since)
+            _draw.since->frame->drawDepths(screen);
+        else
+            screen.writeFarDepth();
     });
 }
 

@@ -36,7 +36,7 @@ private:
 
     void replay(const MarkedLights& dark, unsigned lightBits, std::vector<ReplayedLeaf>& catchers);
     void replay(const std::vector<ReplayedLeaf>& leaves, LeafReplay::Overlay overlay, const Jobs& jobs);
-    bool darkenUnlit(const MarkedLights& lights);
+    bool darkenUnlit(const Jobs& jobs, unsigned lightBits);
     void darken(const std::vector<ReplayedLeaf>& catchers, unsigned lightBits, const Jobs& jobs) const;
     bool reportNotRelit(const osgUtil::RenderLeaf& leaf, const Jobs& jobs) const;
 

@@ -39,15 +39,14 @@ CompositorStage::CompositorStage(osg::RenderInfo& info, osgUtil::RenderStage& of
     hasAlpha = alpha > 0;
     for (int i = std::min(stencil, 8); i-- > 0;)
         if (!((options.reservedStencilBits | pattern.bit) & (1u << i))) bits.push_back(1u << i);
+    const auto take = [this] {
+        const unsigned bit = bits.front();
+        bits.erase(bits.begin());
+        return bit;
+    };
     if (bits.size() > 2) vast = vastLeaves(leaves, *stage.getViewport());
-    if (!vast.empty()) {
-        vastBit = bits.front();
-        bits.erase(bits.begin());
-    }
-    if (since && !bits.empty()) {
-        hidingBit = bits.front();
-        bits.erase(bits.begin());
-    }
+    if (!vast.empty()) vastBit = take();
+    if (since && !bits.empty()) hidingBit = take();
     counters = countersAmong(bits, drawn.bitsOfLights);
 }
 

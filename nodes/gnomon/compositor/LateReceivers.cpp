@@ -55,33 +55,10 @@ unsigned textureUnits(const osgUtil::StateGraph* graph) {
     return static_cast<unsigned>(units);
 }
 
-/// An attribute of a texture unit, as osg::State resolves it.
-struct UnitAttribute {
-    const osg::StateAttribute* attribute = nullptr; ///< null: no state set gives one.
-    bool overrides = false;
-};
-UnitAttribute unitAttribute(const osgUtil::StateGraph* graph, unsigned unit, A::Type type) {
-    if (!graph) return {};
-    const UnitAttribute above = unitAttribute(graph->_parent, unit, type);
-    const osg::StateSet* set = graph->getStateSet();
-    const auto* given = set ? set->getTextureAttributePair(unit, type) : nullptr;
-    if (!given || (above.overrides && !(given->second & A::PROTECTED))) return above;
-    return {given->first, (given->second & A::OVERRIDE) != 0};
-}
-
-/// The mode of a texture unit, as osg::State resolves it.
-unsigned unitMode(const osgUtil::StateGraph* graph, unsigned unit, GLenum mode) {
-    if (!graph) return A::OFF;
-    const unsigned above = unitMode(graph->_parent, unit, mode);
-    const osg::StateSet* set = graph->getStateSet();
-    const unsigned given = set ? set->getTextureMode(unit, mode) : unsigned(A::INHERIT);
-    return (given & A::INHERIT) || ((above & A::OVERRIDE) && !(given & A::PROTECTED)) ? above : given;
-}
-
 /// The texture that fixed function reads in a unit; null: none.
 const osg::Texture* textureIn(const osgUtil::StateGraph* graph, unsigned unit) {
-    const auto* texture = dynamic_cast<const osg::Texture*>(unitAttribute(graph, unit, A::TEXTURE).attribute);
-    return texture && (unitMode(graph, unit, texture->getTextureTarget()) & A::ON) ? texture : nullptr;
+    const auto* texture = dynamic_cast<const osg::Texture*>(resolvedTextureAttribute(graph, unit, A::TEXTURE));
+    return texture && isTextureModeOn(graph, unit, texture->getTextureTarget()) ? texture : nullptr;
 }
 
 /// The least and the largest alpha of something.
@@ -176,7 +153,7 @@ Alphas alphasOfTextures(const osgUtil::StateGraph* graph, KnownAlphas& known) {
     Alphas result;
     for (unsigned unit = 0, end = textureUnits(graph); unit < end; ++unit) {
         const osg::Texture* texture = textureIn(graph, unit);
-        const osg::StateAttribute* environment = unitAttribute(graph, unit, A::TEXENV).attribute;
+        const osg::StateAttribute* environment = resolvedTextureAttribute(graph, unit, A::TEXENV);
         const auto* plain = dynamic_cast<const osg::TexEnv*>(environment); // the other combines
         if (!texture || (plain && plain->getMode() == osg::TexEnv::DECAL)) continue;
         if (environment && !(plain && plain->getMode() == osg::TexEnv::MODULATE)) return any;

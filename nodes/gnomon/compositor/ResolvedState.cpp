@@ -16,6 +16,9 @@
 namespace gnomon {
 namespace {
 
+/// True if what a state set gives holds against what is given above it. @param overridden  that is with OVERRIDE.
+bool prevails(unsigned value, bool overridden) { return !overridden || (value & osg::StateAttribute::PROTECTED); }
+
 /// What state sets give on the way from the root to each graph. A graph takes over what its parent has.
 class StateTable {
 public:
@@ -126,7 +129,7 @@ private:
         const auto known = std::find_if(all.begin() + std::ptrdiff_t(range.first), all.end(), isSame);
         if (known == all.end())
             all.push_back(given);
-        else if (!known->overrides || (value & osg::StateAttribute::PROTECTED))
+        else if (prevails(value, known->overrides))
             *known = given;
         range.end = all.size();
     }
@@ -217,6 +220,41 @@ const osg::StateAttribute* resolvedAttribute(const osgUtil::StateGraph* graph, o
     const StateTable::Attribute* given = known.attributeOf(graph, type);
     if (overrides) *overrides = given && given->overrides;
     return given ? given->attribute.get() : nullptr;
+}
+
+namespace {
+
+/// What a texture unit has of one kind. Few states are asked for it, and once each: nothing is kept.
+struct OfUnit {
+    const osg::StateAttribute* attribute = nullptr; ///< of an attribute.
+    unsigned value = osg::StateAttribute::OFF;      ///< as a state set gives it.
+    bool overrides() const { return (value & osg::StateAttribute::OVERRIDE) != 0; }
+};
+
+/// @param given  what a state set gives; a value of INHERIT: nothing.
+template <class Given>
+OfUnit resolvedOfUnit(const osgUtil::StateGraph* graph, const Given& given) {
+    if (!graph) return {};
+    const OfUnit above = resolvedOfUnit(graph->_parent, given);
+    const osg::StateSet* set = graph->getStateSet();
+    const OfUnit here = set ? given(*set) : OfUnit{nullptr, osg::StateAttribute::INHERIT};
+    return (here.value & osg::StateAttribute::INHERIT) || !prevails(here.value, above.overrides()) ? above : here;
+}
+
+} // namespace
+
+const osg::StateAttribute* resolvedTextureAttribute(const osgUtil::StateGraph* graph, unsigned unit,
+                                                    osg::StateAttribute::Type type) {
+    const auto given = [&](const osg::StateSet& set) {
+        const auto* pair = set.getTextureAttributePair(unit, type);
+        return pair ? OfUnit{pair->first.get(), pair->second} : OfUnit{nullptr, osg::StateAttribute::INHERIT};
+    };
+    return resolvedOfUnit(graph, given).attribute;
+}
+
+bool isTextureModeOn(const osgUtil::StateGraph* graph, unsigned unit, osg::StateAttribute::GLMode mode) {
+    const auto given = [&](const osg::StateSet& set) { return OfUnit{nullptr, set.getTextureMode(unit, mode)}; };
+    return (resolvedOfUnit(graph, given).value & osg::StateAttribute::ON) != 0;
 }
 
 osg::Vec2d polygonOffsetOf(const osgUtil::StateGraph* graph) {

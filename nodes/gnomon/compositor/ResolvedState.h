@@ -43,6 +43,11 @@ const Attribute* resolved(const osgUtil::StateGraph* graph, osg::StateAttribute:
         resolvedAttribute(graph, type)); // a type is a number that others may take, too
 }
 
+/// The same of a texture unit's attributes and modes; a mode that no state set gives is off.
+const osg::StateAttribute* resolvedTextureAttribute(const osgUtil::StateGraph* graph, unsigned unit,
+                                                    osg::StateAttribute::Type type);
+bool isTextureModeOn(const osgUtil::StateGraph* graph, unsigned unit, osg::StateAttribute::GLMode mode);
+
 /// What the program that draws so says of where, and what, it draws; nothing where none does.
 /// @param matrices  as of placesOf().
 ProgramPlaces placesIn(const osgUtil::StateGraph* graph, const std::vector<MatrixUniform>& matrices = {});

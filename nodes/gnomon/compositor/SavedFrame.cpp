@@ -22,12 +22,6 @@ void SavedFrame::save(osg::State& state, const osg::Viewport& viewport) {
     state.apply();
 }
 
-void SavedFrame::drawColors(ScreenPass& pass) {
-    pass.beginReplace();
-    _colors.draw(pass.state());
-    pass.endMix();
-}
-
 std::string SavedFrame::drawDepths(ScreenPass& pass) {
     osg::State& state = pass.state();
     const FrameDepths::Copy copy = _depths.copy(state, pixelsOf(*state.getCurrentViewport()));

@@ -30,9 +30,9 @@ public:
     /// False where OpenGL cannot read what was bound: a framebuffer object of several samples.
     bool hasColors() const { return _hasColors; }
 
-    /// Where the pass allows: colours become those that were saved.
-    void drawColors(ScreenPass& pass);
-    /// The same of depths.
+    /// Of what was saved.
+    FrameColorCopy& colors() { return _colors; }
+    /// Where the pass allows: depths become those that were saved.
     /// @return why that cannot be, as a cause for ShadowTechnique::report(); empty if all is well.
     std::string drawDepths(ScreenPass& pass);
 

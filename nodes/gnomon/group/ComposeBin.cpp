@@ -28,9 +28,9 @@ namespace {
 constexpr int lateNumber = 1 << 30;     // below another bin, after all others there
 constexpr int earlyNumber = -(1 << 30); // before them
 constexpr const char* binName = "gnomon::ComposeBin";
-constexpr const char* noFrameForCut = "in interlaced stereo, and where OpenGL makes no framebuffer objects, what is "
-                                      "drawn in a bin above 8 receives no shadow if "
-                                      "any of it is clear in parts. Draw it in a bin below 8.";
+constexpr const char* noFrameForCut =
+    "in interlaced stereo, and where OpenGL makes no framebuffer objects, what is drawn in a bin above 8 receives no "
+    "shadow if any of it is clear in parts. Draw it in a bin below 8.";
 
 /// Makes the bin known to osgUtil, which creates bins by name.
 const bool registered = [] {
@@ -169,8 +169,7 @@ std::string ComposeBin::compose(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf
     forgetArrays(state);
     learnQuadCut(); // for the next cull
     for (const osg::ref_ptr<DrawWatch>& watch : _watches) watch->begin(renderInfo);
-    const bool isForOthers = _jobs.empty() && _effects.empty() && _waiting.empty(); // it saves the frame alone
-    const std::string cause = isForOthers ? "" : compose(renderInfo, std::move(leaves), materials);
+    const std::string cause = composesNothing() ? "" : compose(renderInfo, std::move(leaves), materials);
     if (_saves) {
         const CleanState clean(state, getStage()->getViewport());
         _saves->save(state, *getStage()->getViewport());

@@ -46,7 +46,7 @@ public:
 protected:
     ~ComposeBin() override = default;
 
-    bool isIdle() const { return _jobs.empty() && _effects.empty() && _waiting.empty() && !_saves; }
+    bool isIdle() const { return composesNothing() && !_saves; }
     /// Hands jobs to another bin, which composes what the stage draws before bin number `below`.
     void handOn(std::vector<ShadowJob>& jobs, ComposeBin& to, int below) const;
     /// Saves the frame for another bin, which then composes what is drawn from this bin on over it.
@@ -63,6 +63,7 @@ protected:
     osg::ref_ptr<SavedFrame> _saves;   ///< of what stands once all is composed; null: nobody asks for it.
 
 private:
+    bool composesNothing() const { return _jobs.empty() && _effects.empty() && _waiting.empty(); }
     bool holdsFrame() const { return _holdsFrame && !isIdle(); }
     void sortAsAsked();
     bool isStencilZero(const std::vector<DrawnLeaf>& leaves) const;
